@@ -42,7 +42,8 @@ from course_pkg.sandbox.linux.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 
-# A_CORE is the number of submissions that each processor core checks at the same time; a check mostly waits.
+# A_CORE is the number of submissions that run at the same time for each processor core. The number is more
+# than 1, because a check mostly waits.
 A_CORE = 2
 
 

@@ -93,7 +93,7 @@ class Flag:
     where: str  # `where` is the part, such as "05.1", or the path of a file.
     words: str  # `words` is a sentence about the reason for the flag.
     line: int = 0  # `line` is the line number in the cell or file, or 0 for the whole cell or file.
-    evidence: str = ""  # `evidence` is the text of the line.
+    evidence: str = ""  # `evidence` is the text of the line with the number `line`.
     others: tuple[str, ...] = ()  # These students have a similar answer.
 
 

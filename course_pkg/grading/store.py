@@ -34,7 +34,8 @@ class Store:
 
     Each file is written completely or not at all, and no file contains a student's name.
 
-    Only the instructor can read the folder, because it contains the seed of the checks' random inputs.
+    Only the instructor can read the folder of the store, because it contains the seed of the checks' random
+    inputs.
     """
 
     def __init__(self, out: Path) -> None:

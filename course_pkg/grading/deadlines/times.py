@@ -2,10 +2,10 @@
 
 A table such as times.csv has the columns student and submitted, and optionally chapter and file. If times.csv
 is in the folder of the submissions, the file is used without an option. Moodle's grading worksheet contains
-the time in the column "Last modified (submission)"; a student's row is found by the number in the name of the
-student's folder. For Gradescope, the time is the value of `:created_at` in submission_metadata.yml. For
-nbgrader, the time is in submitted/STUDENT/ASSIGNMENT/timestamp.txt; this file is read only with `--times
-nbgrader`.
+the time in the column "Last modified (submission)"; a student's row is found by the participant number in the
+name of the student's folder. For Gradescope, the time is the value of `:created_at` in
+submission_metadata.yml. For nbgrader, the time is in submitted/STUDENT/ASSIGNMENT/timestamp.txt; this file is
+read only with `--times nbgrader`.
 """
 
 from __future__ import annotations
@@ -83,7 +83,8 @@ class _Entry:
 class _Table:
     """The rows of a table of times, for each student.
 
-    If a submission has several files, the time of the latest file counts, because all files are graded.
+    If the table contains times for several files of a submission, the latest time counts, because all files
+    are graded.
     """
 
     rows: Mapping[str, Sequence[_Entry]]

@@ -7,13 +7,11 @@ two answers is twice the weight of their common features, divided by the sum of 
 
 Two short answers to the same exercise can be similar by chance. Therefore, a pair of students is flagged only
 in one of two cases. In the first case, they have one nearly identical answer, and enough of the code, or of
-the comments, strings and names, occurs in the answer of at most one other student.
-
-In the second case, a pair of students has several nearly identical answers. For each of these answers, p is
-the fraction of all pairs of students in which the two answers are at least as similar. This fraction is an
-estimate of the probability that the similarity is a coincidence. A pair is flagged if the sum of log2(1 / p)
-is more than MARGIN above log2 of the number of pairs. On average, fewer than one pair of a class is then
-flagged by coincidence.
+the comments, strings and names, occurs in the answer of at most one other student. In the second case, a pair
+of students has several nearly identical answers. For each of these answers, p is the fraction of all pairs of
+students in which the two answers are at least as similar. This fraction is an estimate of the probability
+that the similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than MARGIN above
+log2 of the number of pairs. On average, fewer than one pair of a class is then flagged by coincidence.
 """
 
 from __future__ import annotations
@@ -131,7 +129,7 @@ class Exercise:
         return math.log2(everybody / max(1, as_much))
 
     def is_enough(self, couple: Couple) -> bool:
-        """Return whether one nearly identical answer of these two students is enough for a flag."""
+        """Return whether one nearly identical answer is enough to flag the two students in `couple`."""
         first, second = (self._answers[number] for number in couple)
         words = self._rare(first.words & second.words)
         return words >= OWN_WORDS or (

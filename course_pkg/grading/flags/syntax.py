@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from course_pkg.grading.flags.work import Answer
 from course_pkg.grading.rebuild.context import LONGEST, tree_of
 
-# The parser raises these errors for code that is nested too deeply or contains a huge number.
+# UNREADABLE contains the errors that the parser raises if code is nested too deeply or contains a huge
+# number.
 UNREADABLE = (RecursionError, ValueError, MemoryError)
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 

@@ -36,8 +36,8 @@ class Answer:
     def name(self) -> str:
         """The path of the answer's file, or the id of the part if there is no file.
 
-        The name does not depend on how the file was submitted: a cell can write the file, or a package can
-        contain it.
+        The name of an answer does not depend on how the file was submitted: a cell can write the file, or a
+        package can contain it.
         """
         return self.path.removeprefix("src/") or self.where
 
@@ -58,7 +58,8 @@ class Group:
     chapter: str
     works: tuple[Work, ...]
     solution: Mapping[str, Answer]  # The course's own answers; the keys are the names of the answers.
-    # The unchanged exercise cells that students get; the keys are the same as in `solution`.
+    # `blanks` contains the unchanged exercise cells that students get; the keys are the same as in
+    # `solution`.
     blanks: Mapping[str, str]
     shown: tuple[str, ...]  # The code of all cells of the chapter's notebook that are not exercises.
 

@@ -2,17 +2,12 @@
 
 An instructor or a platform has put the student's name into the name of a folder or file.
 
-An instructor who collects the files uses SUBMISSIONS/<student>/NN_topic.ipynb; subfolders are allowed.
-
-Moodle uses Full Name_12345_assignsubmission_file_/NN_topic.ipynb, or one file name without a folder.
-
-Canvas uses lastfirst_LATE_123_456_NN_topic-2.ipynb. LATE means after the deadline, and -2 means the third
-attempt.
-
-Gradescope uses assignment_9_export/submission_456/NN_topic.ipynb. The file submission_metadata.yml contains
-the names of the students.
-
-The program nbgrader uses submitted/<student>/<assignment>/NN_topic.ipynb.
+A file that an instructor has collected has the path SUBMISSIONS/<student>/NN_topic.ipynb; subfolders are
+allowed. A file from Moodle has the path Full Name_12345_assignsubmission_file_/NN_topic.ipynb, or is one file
+without a folder. A file from Canvas has the name lastfirst_LATE_123_456_NN_topic-2.ipynb, in which LATE means
+after the deadline, and -2 means the third attempt. A file from Gradescope has the path
+assignment_9_export/submission_456/NN_topic.ipynb, and submission_metadata.yml contains the students' names. A
+file from nbgrader has the path submitted/<student>/<assignment>/NN_topic.ipynb.
 
 A catkin package is a folder next to the notebooks: <student>/<package>/package.xml (see packages.py).
 """

@@ -64,7 +64,7 @@ def _readable(source: str) -> tuple[str, list[str]]:
 
 
 def _as_ipython_reads(source: str) -> list[str]:
-    """Return the lines of a cell in the form in which IPython searches them for a magic.
+    """Return a cell's lines after the changes that IPython makes before it searches for a magic.
 
     The lines have no indentation and no prompts, and no line is empty.
     """

@@ -1,6 +1,6 @@
 """Builds the notebook that is graded.
 
-This notebook is the course's solution notebook (the reference) with a student's answers in the exercise
+The graded notebook is the course's solution notebook (the reference) with a student's answers in the exercise
 cells. All other cells of the student are left out.
 """
 

@@ -1,6 +1,6 @@
 """overrides.csv: the points and comments of an instructor.
 
-An instructor can edit the file on the review page or in a spreadsheet.
+An instructor can edit overrides.csv on the review page or in a spreadsheet.
 
 The columns are student, chapter, part, points, comment and answer. When the course writes the file,
 additional columns and empty lines do not change. A part is written as "Part 05.10", because a spreadsheet

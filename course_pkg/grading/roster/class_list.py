@@ -23,7 +23,7 @@ Origins = Mapping[str, Sequence[str]]
 class ClassList:
     """The identities of the students with submissions.
 
-    The list is empty if there is neither a roster nor a worksheet.
+    The class list is empty if there is neither a roster nor a worksheet.
     """
 
     people: Mapping[str, Person] = field(default_factory=dict)  # The keys are the students' names.
@@ -84,7 +84,7 @@ class Lists:
     def matched(self, origins: Origins, source: Path | None = None) -> ClassList:
         """Return the identities of the students with submissions.
 
-        `source` is the folder or the zip of all submissions; it may contain Gradescope's metadata.
+        `source` is the folder or the zip of all submissions, which can contain Gradescope's metadata.
         """
         students = [student for student in origins if student]
         platform = _platform(origins, source, self.worksheet.word if self.worksheet else "")

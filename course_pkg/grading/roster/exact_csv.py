@@ -1,4 +1,4 @@
-"""A CSV file in which a cell can be changed, while all other bytes of the file stay the same.
+"""A CSV file in which a cell can be changed without a change of any other byte.
 
 The csv module cannot be used, because it does not preserve quotes, line endings and the byte order mark. The
 format is RFC 4180, with any character as the separator.

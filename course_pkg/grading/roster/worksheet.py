@@ -4,14 +4,15 @@ An instructor switches on the feedback type "Offline grading worksheet" of an as
 worksheet ("Download grading worksheet"). Later, the instructor uploads the copy with the grades ("Upload
 grading worksheet").
 
-The layout is from the source code of Moodle. The file mod/assign/gradingtable.php writes the columns
-Identifier ("Participant 12345"), Full name, further fields such as Email address or ID number, Status, Group,
-Marker, Grade, Maximum grade (or Scale), Marking workflow state, Grade can be changed, Last modified
-(submission), Online text, Last modified (grade), Feedback comments. Most of these columns are optional; if
-submissions are anonymous, the name is missing. The names of the columns and the word "Participant" are in the
-user's language. The file mod/assign/feedback/offline/importgradeslib.php finds the columns by exactly these
-names, takes the number from the end of the identifier, and refuses a file if a column is missing that it
-needs. The file locallib.php in the same folder ignores a grade that is empty, above the maximum, or locked.
+The layout of the worksheet is from the source code of Moodle. The file mod/assign/gradingtable.php writes the
+columns Identifier ("Participant 12345"), Full name, further fields such as Email address or ID number,
+Status, Group, Marker, Grade, Maximum grade (or Scale), Marking workflow state, Grade can be changed, Last
+modified (submission), Online text, Last modified (grade), Feedback comments. Most of these columns are
+optional; if submissions are anonymous, the name is missing. The names of the columns and the word
+"Participant" are in the user's language. The file mod/assign/feedback/offline/importgradeslib.php finds the
+columns by exactly these names, takes the number from the end of the identifier, and refuses a file if a
+column is missing that it needs. The file locallib.php in the same folder ignores a grade that is empty, above
+the maximum, or locked.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ LARGEST = 50_000_000
 IDENTIFIER, GRADE, MAXIMUM, SCALE = "Identifier", "Grade", "Maximum grade", "Scale"
 OPEN, FEEDBACK = "Grade can be changed", "Feedback comments"
 NAME, EMAIL, USERNAME, ID = "Full name", "Email address", "Username", "ID number"
-# The names of the columns in English, German, French and Spanish, in lower case. The names are from Moodle's
-# language packs (lang/*/assign.php, moodle.php and assignfeedback_comments.php).
+# NAMES contains the names of the worksheet's columns in English, German, French and Spanish, in lower case.
+# The names are from Moodle's language packs (lang/*/assign.php, moodle.php and assignfeedback_comments.php).
 NAMES = {
     IDENTIFIER: ("identifier", "id", "identifiant", "identificador"),
     GRADE: ("grade", "bewertung", "note", "calificación"),
@@ -105,8 +106,8 @@ class Worksheet:
     def word(self) -> str:
         """The word before the number in the column Identifier, such as "participant", in lower case.
 
-        If submissions are anonymous, the names of submitted files contain this word in place of a student's
-        name.
+        If submissions are anonymous, the names of submitted files contain the word "Participant", in the
+        user's language, in place of a student's name.
         """
         first = self._records[1:2]
         return folded(re.sub(r"\d+\s*\Z", "", self._value(first[0], IDENTIFIER))) if first else ""
@@ -115,7 +116,7 @@ class Worksheet:
     def takes_feedback(self) -> bool:
         """Whether the worksheet has a column for feedback.
 
-        Moodle adds this column if the feedback type "Feedback comments" is on.
+        Moodle adds a column for feedback if the feedback type "Feedback comments" is on.
         """
         return FEEDBACK in self._columns
 

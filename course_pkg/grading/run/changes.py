@@ -33,7 +33,7 @@ class Change:
 def changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[Change]:
     """Return the points that have changed between two runs, sorted by student and part.
 
-    If a grade exists in only one of the two runs, this grade is ignored.
+    If a grade exists in only one of the two compared runs, the grade is ignored.
     """
     known = {(grade.student, grade.chapter): grade for grade in before if grade.chapter}
     found = []

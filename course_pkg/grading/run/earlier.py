@@ -17,7 +17,7 @@ from course_pkg.grading.run.selection import Selection
 class Earlier:
     """The records of earlier runs in the folder `out`.
 
-    `unreadable` is the number of files in this folder that this version of the course cannot read.
+    `unreadable` is the number of files in `out` that this version of the course cannot read.
     """
 
     out: Path
@@ -57,7 +57,7 @@ class Earlier:
     def forget_files(self, graded: Sequence[Grade], selected: Selection) -> None:
         """Remove the records of files that could not be graded in an earlier run.
 
-        A record is removed only if the file no longer exists.
+        A record is removed only if the student's file no longer exists.
         """
         now = {(grade.student, grade.origin) for grade in graded if not grade.chapter}
         for grade in self.grades:

@@ -41,10 +41,10 @@ class Regrade:
     def keep(self, store: Store, graded: Grade, parts: tuple[str, ...], alike: Sequence[Submission]) -> None:
         """Store a new grade for later runs; at this time, the grade contains no student's name.
 
-        All submissions in `alike` get this grade. If only `parts` were graded, the new reports on these parts
-        replace the reports in the stored grade. A stored grade that was computed with other options or
-        another version of the checks is removed. If such a grade stayed in the store, a later run of the
-        whole notebook could use the old points.
+        All submissions in `alike` get the grade `graded`. If only `parts` were graded, the new reports on
+        these parts replace the reports in the stored grade. A stored grade that was computed with other
+        options or another version of the checks is removed. If such a grade stayed in the store, a later run
+        of the whole notebook could use the old points.
         """
         if not parts:
             store.keep(graded)

@@ -1,6 +1,6 @@
 """The selection of a run: which students, chapters and parts are graded.
 
-The results of other students, chapters and parts do not change.
+The results of students, chapters and parts that are not selected do not change.
 """
 
 from __future__ import annotations

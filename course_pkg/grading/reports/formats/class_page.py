@@ -191,7 +191,7 @@ def _listed(reasons: Sequence[str]) -> str:
 def _link(student: str) -> str:
     """Return a link to the feedback page of a student.
 
-    The file name of the page contains no HTML characters, so it is not escaped.
+    The file name of a feedback page contains no HTML characters, so the name is not escaped.
     """
     return f'<a href="feedback/{clean.file_name(student or "nobody")}.html">{text(name_of(student))}</a>'
 
