@@ -17,7 +17,7 @@ DAY = 86_400.0  # s
 
 @dataclass(frozen=True)
 class Deadlines:
-    """The deadlines of chapters; the deadline with the key "" applies to all chapters without a key."""
+    """The deadlines of chapters; the deadline with the key "" applies to each chapter that has no key."""
 
     by_chapter: Mapping[str, datetime]
     grace: timedelta = timedelta()

@@ -11,8 +11,8 @@ modified (submission), Online text, Last modified (grade), Feedback comments. Mo
 optional; if submissions are anonymous, the name is missing. The names of the columns and the word
 "Participant" are in the user's language. The file mod/assign/feedback/offline/importgradeslib.php finds the
 columns by exactly these names, takes the number from the end of the identifier, and refuses a file if a
-column is missing that it needs. The file locallib.php in the same folder ignores a grade that is empty, above
-the maximum, or locked.
+required column is missing. The file locallib.php in the same folder ignores a grade that is empty, above the
+maximum, or locked.
 """
 
 from __future__ import annotations

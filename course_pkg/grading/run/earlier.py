@@ -37,9 +37,9 @@ class Earlier:
 
         The returned grades contain the points of the checks, not the points that an instructor has set.
 
-        An earlier grade is marked as absent if this run selects the student and the chapter, but has no
-        submission. However, if a run without a selection has no submission at all for a chapter, the grades
-        for this chapter are not marked, because the chapter probably belongs to another assignment.
+        An earlier grade is marked as absent if this run selects the student and the chapter, but the student
+        has no submission. However, if a run without a selection has no submission at all for a chapter, the
+        grades for this chapter are not marked, because the chapter probably belongs to another assignment.
         """
         chapters = {grade.chapter for grade in graded}
         now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}
