@@ -38,8 +38,8 @@ UNSEEN = re.compile(
 # ILLEGAL matches halves of surrogate pairs, and code points that are not characters.
 ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 BREAKS = re.compile("\r\n?|[\u2028\u2029]")
-# In a spreadsheet, a formula begins with a character in FORMULA. Only some spreadsheets accept the last four,
-# which are full-width characters.
+# In a spreadsheet, a formula begins with a character in FORMULA; only some spreadsheets accept the last four
+# (full-width characters).
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
@@ -96,7 +96,7 @@ def _value(value: Plain) -> Plain:
 
 
 def identity(name: str) -> str:
-    """Return a readable form of a student's name for records; different names give different results."""
+    """Return a student's name in a form for records; different names give different results."""
     known = unicodedata.normalize("NFC", name)
     kept = line(known, 120)
     return kept if kept == known else f"{kept}~{_mark(name)}".strip()

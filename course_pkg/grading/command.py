@@ -42,8 +42,8 @@ from course_pkg.sandbox.linux.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 
-# A_CORE is the number of submissions that run at the same time for each processor core. The number is more
-# than 1, because a check mostly waits.
+# A_CORE is the number of submissions that each processor core grades at the same time; it is more than 1,
+# because a check mostly waits.
 A_CORE = 2
 
 
@@ -113,8 +113,8 @@ def grade(options: Options) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("\nStopped. Type the same command again to continue.\n")
         sys.stderr.flush()
-        # os._exit() does not wait for the threads that grade notebooks. The processes that these threads have
-        # started end, too.
+        # os._exit() does not wait for the threads that grade notebooks. It also ends the processes of these
+        # threads.
         os._exit(130)
     graded = best_attempts([_with_lateness(points.weighed(each), policy) for each in graded])
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
@@ -172,7 +172,7 @@ def grade_one(
 ) -> int:
     """Grade one notebook and write the result into the file `out`.
 
-    Each job of a job array on a cluster calls this function for one notebook.
+    Each job of a cluster's job array calls this function.
     """
     require_references()
     found = submissions(notebook)
@@ -201,7 +201,7 @@ def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Gra
 
 
 def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> Deadlines:
-    """Return the deadlines, with the extensions that the roster contains."""
+    """Return the deadlines, with the extensions in the roster."""
     # If the roster contains an invalid number of days, this call raises an error before the grading begins.
     extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
@@ -212,7 +212,7 @@ def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> D
 def _dated(
     options: Options, found: Sequence[Submission], due: Deadlines, table: LateTable | None
 ) -> list[Submission]:
-    """Return the submissions to grade; each submission contains the number of days that it is late."""
+    """Return the submissions to grade; each submission contains its late days."""
     zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
     asked = bool(options.deadlines or options.times)  # Without a deadline, times.csv is not read.

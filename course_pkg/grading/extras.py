@@ -18,19 +18,19 @@ from course_pkg.setup.stamps import digest
 
 @dataclass(frozen=True)
 class Extras:
-    """The folder with an instructor's private exercises and points; `folder` is None if there is none."""
+    """The folder with an instructor's private exercises and points, if there is one."""
 
     folder: Path | None = None
 
     @property
     def digest(self) -> str:
-        """Return a digest of the files with private parts; the digest does not depend on the points."""
+        """Return a digest of the private parts; the digest does not depend on the points."""
         files = sorted(self.folder.glob("*.py")) if self.folder else []
         return digest([part for path in files for part in (path.name, path.read_bytes())])
 
     @property
     def points(self) -> Path | None:
-        """The path of points.json in the private folder, or None if there is no such file."""
+        """The path of the private points.json, or None if there is no such file."""
         path = self.folder / POINTS if self.folder else None
         return path if path and path.exists() else None
 

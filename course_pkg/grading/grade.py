@@ -79,7 +79,7 @@ class CellOutcome:
     cell: str
     outcome: str  # The value is "passed", "failed" or "skipped".
     finding: str = ""  # `finding` is a sentence for the student, or "" for a cell that passed.
-    line: str = ""  # `line` is the first line of the cell, which helps the student to find the cell.
+    line: str = ""  # `line` is the first line of the cell.
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class Flag:
     where: str  # `where` is the part, such as "05.1", or the path of a file.
     words: str  # `words` is a sentence about the reason for the flag.
     line: int = 0  # `line` is the line number in the cell or file, or 0 for the whole cell or file.
-    evidence: str = ""  # `evidence` is the text of the line with the number `line`.
+    evidence: str = ""  # `evidence` is the text of the line `line`.
     others: tuple[str, ...] = ()  # These students have a similar answer.
 
 

@@ -173,8 +173,7 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
     if report.verdict is Verdict.PASSED:
         return report
     if report.verdict is Verdict.UNDECIDED:
-        # The part counts as failed, because the student's answer can be the reason why the check did not
-        # finish.
+        # The part counts as failed, because a student's answer can prevent the check from finishing.
         note = f"No points, because the check could not finish: {report.note}"
         return Report(part.check, Verdict.FAILED, part.goal, 0, part.points, note=note, inconclusive=True)
     errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]

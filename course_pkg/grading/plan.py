@@ -67,7 +67,7 @@ def course_digest() -> str:
 
 
 def _counts(path: Path) -> bool:
-    apart = {"site", "lab"} & set(path.parts)  # Grades do not depend on the files in these folders.
+    apart = {"site", "lab"} & set(path.parts)  # Grades do not depend on these folders.
     return (
         path.is_file() and not apart and path.suffix in {".py", ".srv", ".ipynb", ".launch", ".msg", ".json"}
     )

@@ -9,15 +9,15 @@ from course_pkg.authoring.notebook_store import NotebookStore
 from course_pkg.checking.parts import chapters, folder_of, notebook_of
 from course_pkg.errors import GradingError
 
-SHOWN = 3  # SHOWN is the maximum number of file names in the error message.
+SHOWN = 3  # SHOWN is the maximum number of names in the message.
 
 
 def require_references(asked: Sequence[str] = (), root: Path | None = None) -> None:
     """Raise GradingError if the solution or the fixtures of a chapter in `asked` are missing.
 
     By default, the files of all chapters are checked. Grading finds the chapter of a submission by a
-    comparison with all solutions. Therefore, if the solution of a chapter were missing, submissions for this
-    chapter would get no points. `root` is the checkout.
+    comparison with all solutions. Therefore, without the solution of a chapter, submissions for this chapter
+    would get no points. `root` is the checkout.
     """
     missing = list(_missing(asked or chapters(), NotebookStore(root).root))
     if missing:

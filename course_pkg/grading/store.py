@@ -30,12 +30,11 @@ def handed_in(grade: Grade, submission: Submission) -> Grade:
 
 
 class Store:
-    """The finished grades; each grade is stored in a file under the key of the grade.
+    """The finished grades; each grade has a key.
 
     Each file is written completely or not at all, and no file contains a student's name.
 
-    Only the instructor can read the folder of the store, because it contains the seed of the checks' random
-    inputs.
+    Only the instructor can read the stored files, because they contain the seed of the checks' random inputs.
     """
 
     def __init__(self, out: Path) -> None:

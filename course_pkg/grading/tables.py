@@ -19,8 +19,8 @@ def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
 
     `what` describes the file in error messages, such as "table of late days".
 
-    Raises GradingError if the file cannot be read, has more than `largest` bytes, or is a spreadsheet in
-    place of a CSV file.
+    Raises GradingError if the file cannot be read, has more than `largest` bytes, or is not CSV but a
+    spreadsheet.
     """
     try:
         with path.open("rb") as file:

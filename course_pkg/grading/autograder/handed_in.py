@@ -12,8 +12,7 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.submissions import submissions
 
-# The submission is copied to a folder with this name. The name of the student is not needed, because
-# Gradescope knows which student submitted.
+# The submission is copied to a folder with this name. Gradescope knows the name of the student.
 STUDENT = "student"
 
 

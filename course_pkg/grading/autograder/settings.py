@@ -1,4 +1,4 @@
-"""The settings of an autograder, and the times in the metadata that Gradescope stores for a submission."""
+"""The settings of an autograder, and the times in Gradescope's metadata for a submission."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ class Row:
     values: dict[str, str]
 
     def get(self, *columns: str) -> str:
-        """Return the value of the first column in `columns` that is not empty, or "" if all are empty."""
+        """Return the first value in the columns `columns` that is not empty, or ""."""
         return next((value for name in columns if (value := self.values.get(name, ""))), "")
 
 

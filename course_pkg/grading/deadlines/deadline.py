@@ -26,8 +26,7 @@ class Deadlines:
     def due(self, student: str, chapter: str) -> datetime | None:
         """Return a student's deadline for a chapter, or None; the grace period is not included.
 
-        An extension does not change the time of day of a deadline, even if summer time begins or ends during
-        the extension.
+        An extension does not change the time of day of a deadline, even if summer time begins or ends.
         """
         deadline = self.by_chapter.get(chapter, self.by_chapter.get(""))
         if deadline is None:
@@ -40,7 +39,7 @@ class Deadlines:
         return due is None or due + self.grace <= datetime.now(due.tzinfo)
 
     def days_late(self, student: str, chapter: str, submitted: datetime) -> float:
-        """Return how many days after the grace period the student submitted, or 0 if there was no delay."""
+        """Return how many days after the grace period the student submitted, or 0."""
         due = self.due(student, chapter)
         if due is None:
             return 0.0

@@ -42,7 +42,7 @@ def late_policy(
     """Return the policy from the options --late-per-day (percent) and --late-max-days.
 
     Raises GradingError if a number is out of range, if `table` or `deadlines` is given without a policy, or
-    if a policy is given, but neither `table` nor `deadlines`.
+    if a policy is given without `table` and `deadlines`.
     """
     if (table or deadlines) and per_day is None and max_days is None:
         raise GradingError(

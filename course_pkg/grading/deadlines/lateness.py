@@ -22,7 +22,7 @@ class Lateness:
     when: Callable[[Submission], datetime | None]
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the submissions; each submission contains the number of days that it is late.
+        """Return the submissions; each submission contains its late days.
 
         Raises GradingError if there is a deadline, but no submission has a time.
         """

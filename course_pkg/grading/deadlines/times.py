@@ -83,8 +83,7 @@ class _Entry:
 class _Table:
     """The rows of a table of times, for each student.
 
-    If the table contains times for several files of a submission, the latest time counts, because all files
-    are graded.
+    If a submission has several times, the latest time counts, because all files are graded.
     """
 
     rows: Mapping[str, Sequence[_Entry]]
@@ -112,11 +111,7 @@ def _has(submission: Submission, file: str) -> bool:
 
 
 def _paths(origin: str, student: str) -> tuple[str, ...]:
-    """Return the path of a submitted file in two forms.
-
-    The first path is relative to the folder of all submissions, and the second path is relative to the
-    student's folder.
-    """
+    """Return a file's paths relative to the folder of all submissions and to the student's folder."""
     parts = origin.split("/")
     place = next((index for index, part in enumerate(parts[:-1]) if clean.identity(part) == student), None)
     return (origin,) if place is None else (origin, "/".join(parts[place + 1 :]))

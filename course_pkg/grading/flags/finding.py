@@ -52,8 +52,8 @@ def with_flags(
 ) -> list[Grade]:
     """Search the graded submissions for the kinds of flags `names`; return the grades with the found flags.
 
-    Submissions that do not count, such as earlier attempts, get no flags. If a grade is from an earlier run,
-    and this run has no submission for it, the flags of the grade do not change.
+    Submissions that do not count, such as earlier attempts, get no flags. The flags of a grade from an
+    earlier run do not change if this run has no submission for it.
     """
     graded = {_key(grade) for grade in grades}
     counting = [each for each in submissions if each.chapter and _key(each) in graded]

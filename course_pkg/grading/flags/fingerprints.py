@@ -1,9 +1,9 @@
 """Fingerprints of code: features that do not depend on names, comments and the order of statements.
 
-There are three kinds of features. The first is a statement together with the block that contains it. The
-second is a pair of statements: one statement sets a name, and the other statement uses this name. The third
-is the set of all statements of a function or class. The order of statements is ignored, because a student who
-copies an answer can reorder its functions and independent statements.
+There are three kinds of features. The first is a statement, with the block that contains it. The second is a
+pair of statements: one sets a name, and the other uses this name. The third is the set of all statements of a
+function or class. The order of statements is ignored, because a student who copies an answer can reorder its
+functions and independent statements.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ SHOWN = 5  # SHOWN is the maximum number of flags of one kind for one answer.
 
 @dataclass(frozen=True)
 class Observation:
-    """An action of a student's program that an instructor may want to examine."""
+    """An action of a student's program."""
 
     key: str
     line: int
@@ -28,7 +28,7 @@ class Observation:
 
 @dataclass(frozen=True)
 class Program:
-    """The syntax tree of a program, and the imported objects to which the names in the program refer."""
+    """The syntax tree of a program, and the imported objects to which its names refer."""
 
     module: ast.Module
     names: Mapping[str, str]
@@ -63,7 +63,7 @@ def unusual(group: Group, kind: str, observe: Observe, *, whole_notebook: bool) 
 def _seen(answer: Answer, given: Mapping[str, str], observe: Observe) -> list[Observation]:
     """Return the observations in an answer.
 
-    A cell of the notebook can use the imports of other cells; a program in a file cannot.
+    A cell of the notebook can use the imports of other cells.
     """
     try:
         module = tree(answer)

@@ -9,9 +9,9 @@ Two short answers to the same exercise can be similar by chance. Therefore, a pa
 in one of two cases. In the first case, they have one nearly identical answer, and enough of the code, or of
 the comments, strings and names, occurs in the answer of at most one other student. In the second case, a pair
 of students has several nearly identical answers. For each of these answers, p is the fraction of all pairs of
-students in which the two answers are at least as similar. This fraction is an estimate of the probability
-that the similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than MARGIN above
-log2 of the number of pairs. On average, fewer than one pair of a class is then flagged by coincidence.
+students whose two answers are at least as similar. This fraction is an estimate of the probability that the
+similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than MARGIN above log2 of the
+number of pairs. On average, fewer than one pair of a class is then flagged by coincidence.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ FEW = 3  # Even in a small class, code is compared if at most this many students
 SMALL = 30  # For a smaller class, the weights are computed as for a class of this size.
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
-# One answer is enough to flag a pair if the two answers have at least OWN_CODE features of the code in
-# common, and at most one other student has these features.
+# One answer is enough to flag a pair if the two answers have at least OWN_CODE features of the code in common
+# that at most one other student has.
 OWN_CODE = 15
-# One answer is also enough to flag a pair if the two answers have at least OWN_WORDS comments, strings or
-# names in common, and at most one other student has them.
+# One answer is also enough if the two answers have at least OWN_WORDS comments, strings or names in common
+# that at most one other student has.
 OWN_WORDS = 3
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)
@@ -102,7 +102,7 @@ class Exercise:
         self._most = max(FEW, COMMON * size)
 
     def having(self, feature: str) -> int:
-        """Return the number of students with a feature in their answer."""
+        """Return the number of students who have a feature."""
         return self._having[feature]
 
     def counts(self, feature: str) -> bool:

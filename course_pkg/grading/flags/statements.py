@@ -18,7 +18,7 @@ from course_pkg.grading.flags.syntax import Function, is_text
 COMMUTATIVE = (ast.Add, ast.Mult, ast.BitAnd, ast.BitOr, ast.BitXor)
 MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE}
 BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
-# A `Name` is a tuple: the number of the scope that binds the name (0 is the module, -1 means attributes), and
+# A `Name` contains the number of the scope that binds the name (0 is the module, -1 means attributes), and
 # the name.
 Name = tuple[int, str]
 

@@ -8,8 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from course_pkg.grading.flags.work import Answer
 from course_pkg.grading.rebuild.context import LONGEST, tree_of
 
-# UNREADABLE contains the errors that the parser raises if code is nested too deeply or contains a huge
-# number.
+# The parser raises the errors in UNREADABLE for code that is nested too deeply, or contains a huge number.
 UNREADABLE = (RecursionError, ValueError, MemoryError)
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -35,7 +34,7 @@ def tree(answer: Answer) -> ast.Module:
 
 
 def line_of(answer: Answer, number: int) -> str:
-    """Return the line of the answer with the number `number`, without indentation."""
+    """Return the line `number` of the answer, without indentation."""
     lines = answer.source.splitlines()
     return lines[number - 1].strip() if 0 < number <= len(lines) else ""
 
@@ -56,7 +55,7 @@ def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
 
 
 def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
-    """Return `known`, with an additional entry for each name in `module` that refers to an imported object.
+    """Return `known`, with an entry for each name in `module` that refers to an imported object.
 
     After `file = Path("x")`, the result contains "pathlib.Path" for "file", so that calls of the path's
     methods can be found.

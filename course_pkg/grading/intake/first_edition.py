@@ -15,7 +15,7 @@ TITLE = re.compile(r"# (.+)")
 
 @dataclass(frozen=True)
 class RenumberedChapter:
-    """A chapter of the course's first edition; `now` is the number of this chapter in the current edition."""
+    """A chapter of the course's first edition; `now` is its number in the current edition."""
 
     name: str  # `name` is the name of the file in the first edition, without the ending .ipynb.
     title: str  # `title` is the heading of the chapter in the first edition.
@@ -55,8 +55,7 @@ RENUMBERED = (
     RenumberedChapter("13_go_further", "Go further", "16"),
 )
 
-# Chapter 03 has the same number in the first and in the current edition, but the numbers of its exercises
-# differ.
+# Chapter 03 has the same number in both editions of the course, but its exercises have other numbers.
 CHOOSE = RenumberedChapter(
     "03_choose",
     "Choose between a stream and a question",
@@ -73,9 +72,9 @@ LAST_PART = re.compile(r"(?:exercise|check)-03-5|[\"']03\.5[\"']")
 def first_edition(name: str, cells: Sequence[StudentCell], by_ids: str) -> RenumberedChapter | None:
     """Return the chapter of the first edition to which a notebook belongs, or None for a newer notebook.
 
-    `name` is the file name of the notebook, in lower case and with underscores between the words. `by_ids` is
-    the chapter that has the most cell ids in common with the notebook. The chapter number alone is not
-    sufficient, because another chapter has this number in the current edition.
+    `name` is the notebook's file name, in lower case with underscores. `by_ids` is the chapter that has the
+    most cell ids in common with the notebook. The chapter number alone is not sufficient, because another
+    chapter has this number in the current edition.
     """
     number = _number(cells)
     if number == CHOOSE.number and (CHOOSE.title in _titles(cells) or _has_last_part(cells)):

@@ -24,11 +24,11 @@ PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 def handed_in_nothing(
     source: Path, files: Sequence[str], outer: int, submitters: Submitters, reports: Sequence[str] = ()
 ) -> list[Submission]:
-    """For each student with an empty folder, return a submission whose `problem` reports the empty folder.
+    """For each student with an empty folder, return a submission with a `problem`.
 
     `source` is a folder or a zip, and `files` contains the paths in it. `outer` is 1 if one folder contains
-    all students' folders, and 0 otherwise. `reports` contains the paths of the folders in `source` that
-    contain reports; these folders are skipped.
+    all students' folders, and 0 otherwise. `reports` contains the paths of folders with reports; these
+    folders are skipped.
     """
     filled = {PurePosixPath(path).parts[:depth] for path in files for depth in range(1, DEPTH + 1)}
     found: dict[str, Submission] = {}

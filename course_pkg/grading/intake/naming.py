@@ -30,10 +30,10 @@ CANVAS = re.compile(
 )
 GRADESCOPE = re.compile(r"submission_\d+")
 METADATA = "submission_metadata.yml"
-TIMES = "times.csv"  # `course collect` writes this file into the folder that contains the students' folders.
+TIMES = "times.csv"  # `course collect` writes this file next to the students' folders.
 WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
 AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
-# Some browsers and platforms add .txt or .json to the name of a notebook.
+# Some systems add .txt or .json to the name of a notebook.
 NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)
 # For each folder in Gradescope's export, Submitters contains the students who submitted.
 Submitters = Mapping[str, Sequence[str]]
@@ -45,17 +45,16 @@ class Claim:
 
     student: str  # `student` is the student's name, or "" if the path does not contain it.
     stem: str  # `stem` is the file name that the student gave the notebook, or "" for any other file.
-    # `attempt` is the number of the attempt in the file name; the first attempt has the number 0.
-    attempt: int = 0
+    attempt: int = 0  # `attempt` is the number of the attempt; the first attempt is 0.
     marked_late: bool = False
 
 
 def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
     """Return the students to whom a file belongs: one student, or all members of a group.
 
-    The student's name is read only from the first folder of the path, or from the file name if there is no
-    folder. The platform chose this name. Students choose all other names in the path, and could use another
-    student's name.
+    The student's name is read only from the first folder, or from the file name if there is no folder. The
+    platform chose this name. Students choose all other names in the path, and could use another student's
+    name.
     """
     *folders, name = parts
     first = folders[0] if folders else name

@@ -1,12 +1,12 @@
 """Reads the catkin packages that students submit, such as SUBMISSIONS/<student>/<package>/package.xml.
 
-A package is a folder that contains a package.xml; the folder can be at any depth below the student's folder.
-The folders that catkin writes (build, devel, install) are left out. The name of a package is the name in its
-package.xml, as in ROS. However, if no part needs a package with this name, but a part needs a package with
-the name of the folder, the name of the folder is used.
+A package is a folder with a package.xml, at any depth below the student's folder. The folders that catkin
+writes (build, devel, install) are left out. The name of a package is the name in its package.xml, as in ROS.
+However, if only the name of the folder is the name of a package that a part needs, the name of the folder is
+used.
 
-A link or a device in a package is not read, and a note in the grade reports the link or device. A package
-that is too large is not examined. If two packages have the same name, the newest package is used.
+A link or a device in a package is not read, and a note in the grade reports this. A package that is too large
+is not examined. If two packages have the same name, the newest package is used.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ def _too_large(name: str, why: str) -> str:
 
 
 def _name(manifest: bytes) -> str:
-    """Return the package name that the text of a package.xml contains, or ""."""
+    """Return the name of the package in the text of a package.xml, or ""."""
     tags = manifest_tags(manifest.decode("utf-8", "replace"))
     return next((tag.text for tag in tags if tag.name == "name"), "")
 
@@ -150,7 +150,7 @@ def attached(
 
 
 def _asked(parts: Sequence[Part]) -> dict[str, set[str]]:
-    """Return the package files that the parts `parts` need; the keys are the names of the packages."""
+    """Return the files that the parts `parts` need; the keys are the names of packages."""
     asked: dict[str, set[str]] = {}
     for part in parts:
         for name, paths in part.package_files.items():

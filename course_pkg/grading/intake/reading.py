@@ -102,8 +102,8 @@ def _parsed(content: bytes) -> dict[str, Plain]:
 def _all_cells(data: dict[str, Plain]) -> object:
     """Return a notebook's cells; in notebooks up to format version 3, the cells are in the list "worksheets".
 
-    The library nbformat is not used, because it validates an old notebook before the conversion. The
-    validation of a long notebook takes seconds and writes the whole content to a log.
+    nbformat is not used, because its validation of a long notebook takes seconds and writes the whole content
+    to a log.
     """
     sheets = data.get("worksheets")
     if "cells" in data or not isinstance(sheets, list):

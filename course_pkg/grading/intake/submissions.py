@@ -65,9 +65,9 @@ def submissions(
 
     `source` is a folder with files such as `<student>/NN_topic.ipynb`, a zip of such a folder, a download
     from a platform (see naming.py), or one notebook. `root` is the checkout that contains the solutions.
-    Files in the folder `without`, and in folders with the reports of earlier runs, are ignored. For an
-    unusable file, and for an empty folder of a student, the result contains a submission with a `problem`.
-    GradingError is raised only if `source` cannot be opened.
+    Files in the folder `without`, and in folders with the reports of earlier runs, are ignored. An unusable
+    file, or a student's empty folder, becomes a submission with a `problem`. GradingError is raised only if
+    `source` cannot be opened.
     """
     if source.is_file() and NOTEBOOK.fullmatch(source.name):
         return [submission_of(source, root=root)]
@@ -89,7 +89,7 @@ def submissions(
 
 
 def submission_of(path: Path, student: str = "", root: Path | None = None) -> Submission:
-    """Return a submission that contains one notebook, and the packages in the folder of this notebook.
+    """Return a submission with one notebook, and with the packages in the notebook's folder.
 
     If `student` is empty, the student's name is the name of the notebook's folder.
     """
@@ -181,7 +181,7 @@ def _found(file: _File, references: References) -> Iterator[_Found]:
 
 
 def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
-    """Read one file, and return the submission that this file contains.
+    """Read one file, and return the submission in this file.
 
     If the file cannot be graded, `problem` says why, and what the student or the instructor can do.
     """

@@ -19,7 +19,7 @@ from course_pkg.checking.parts import chapters, parts_of
 
 RECORD = "COURSE_NBVAL_RECORD"
 WORDS = 40000  # WORDS is the maximum number of characters of a failure's text.
-# PART and MISSING are the names of the user properties that the plug-in adds to a pytest report.
+# PART and MISSING are the names of user properties in a pytest report.
 PART, MISSING = "part", "missing"
 CALL = re.compile(r"""^\s*check\(["'](\d\d\.\d+)["']\)""", re.MULTILINE)
 SEEN = pytest.StashKey[bool]()
@@ -27,7 +27,7 @@ SEEN = pytest.StashKey[bool]()
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Record the result of a notebook cell; pytest's reports about other items are ignored."""
+    """Record the result of a notebook cell; all other reports are ignored."""
     report = yield
     cell: Cell | None = getattr(item, "cell", None)
     if cell is not None and (report.when == "call" or report.outcome != "passed"):

@@ -31,13 +31,13 @@ SILENCE = 15.0
 # TOGETHER is the limit in bytes for the total memory of pytest and all nodes of a chapter.
 TOGETHER = 2 * confinement.TOGETHER
 KERNEL = "sandboxed"
-# In the first edition of the course, the function `progress` had the name `results`.
+# In the first edition, the function `progress` had the name `results`.
 OVERVIEW = re.compile(r"\b(progress|results)\(")
 OWN = "/student/.course"
 # The folders `notebooks` and `workspace` have the same parent folder, as in a checkout.
 NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"
 # A kernel with the environment variable JPY_PARENT_PID ends if the id of its parent process is 1. In the
-# sandbox, the id of the parent process is always 1, so this variable is removed.
+# sandbox, this id is always 1.
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")
 
 
@@ -70,8 +70,8 @@ def _run_within_limits(command: list[str], record: Path, silence: float) -> bool
     Kill the processes of the command if they use too much memory, or if the file `record` does not grow for
     `silence` s.
 
-    Returns True if `record` did not grow for `silence` s. The reason for this limit is that nbval waits for
-    ever if the connections of a kernel are damaged.
+    Returns True if `record` did not grow for `silence` s. Without this limit, nbval would wait for ever if
+    the connections of a kernel are damaged.
     """
     size, deadline = 0, Deadline(silence)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:

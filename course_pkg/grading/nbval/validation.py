@@ -18,7 +18,7 @@ from course_pkg.sandbox.linux.bubblewrap import sandbox_command
 CELL = 40
 LIMIT = 600.0  # LIMIT is the time limit of a notebook in s; the longest chapter takes 100 s.
 LINE = 100  # LINE is the maximum number of characters of the first line of a cell.
-OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes that are read from the output of nbval.
+OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes of nbval's output.
 
 
 def wanted(grade: Grade, whose: str) -> bool:

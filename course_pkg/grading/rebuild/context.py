@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 # A cell with more than LONGEST characters is not parsed, because the parsing would take too much time.
 LONGEST = 20_000
-# A cell with magics and more than MAGICAL lines is not parsed, because the time that IPython needs grows with
-# the square of the number of lines.
+# A cell with magics and more than MAGICAL lines is not parsed, because IPython's time grows with the square
+# of the number of lines.
 MAGICAL = 300
 # The syntax nodes in SCOPES have a separate scope: later cells cannot use the names that are assigned in
 # them.
@@ -37,7 +37,7 @@ class _Cell:
 
 
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
-    """Return the sources of the cells in `above` that `answer` needs, in the same order as in `above`.
+    """Return the sources of the cells in `above` that `answer` needs, in their order.
 
     The code in `before` always runs, so no other cell is needed for the names that this code defines.
     """

@@ -30,7 +30,7 @@ Transform: TypeAlias = Callable[[list[str]], list[str]]
 
 @dataclass(frozen=True)
 class Defused:
-    """The code of an answer without markers and magics, and notes for the student about the changes."""
+    """An answer's code without markers and magics, and notes for the student about the changes."""
 
     source: str
     notes: tuple[str, ...] = ()

@@ -3,7 +3,7 @@
 The cell of an exercise is found by its id. A copied cell has a new id, so the cell is also found by its
 metadata. If no cell has the right id or metadata, the cell is found by the names that it defines, or by the
 file that it writes. If there are several such cells, the last non-blank cell is used. If the student has
-split the answer into several cells, the cells directly below the exercise's cell belong to the answer.
+split the answer into several cells, the cells directly below also belong to the answer.
 """
 
 from __future__ import annotations
@@ -161,7 +161,7 @@ class _Above:
             self._lines |= {line.strip() for line in cell.source.splitlines()}
 
     def goes_on(self, cell: StudentCell, wanted: Wanted) -> bool:
-        """Return whether a cell of the same exercise is a continuation of this answer.
+        """Return whether a cell of the same exercise continues this answer.
 
         A cell that only repeats the answer is not a continuation.
         """

@@ -25,8 +25,7 @@ class Rebuilt:
     """The notebook that is graded; each exercise is either in `answers` or in `missing`."""
 
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
-    # `answers` contains the source that runs for each exercise; it can be the source of the unchanged
-    # exercise cell.
+    # `answers` contains the source that runs for each exercise, even if it is the unchanged exercise cell.
     answers: Mapping[str, str]
     # `missing` contains the exercises without an answer; each value is the reason that the student sees.
     missing: Mapping[str, str] = field(default_factory=dict)
@@ -46,8 +45,8 @@ def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
 class Rebuilder:
     """Puts students' answers into the solution notebook of a chapter; one object is used for all students.
 
-    If an answer is missing, the graded notebook contains the unchanged exercise cell that students get, never
-    the solution. The other cells share their output objects with the solution notebook.
+    If an answer is missing, the graded notebook contains the unchanged exercise cell, never the solution. The
+    other cells share their output objects with the solution notebook.
     """
 
     def __init__(self, reference: Notebook) -> None:

@@ -1,7 +1,7 @@
 """Finds the names and files that an exercise asks for, and the names that a student's cell defines.
 
-The code of a student's cell is searched line by line. The code is not parsed, because some code makes a
-parser very slow, or crashes the parser.
+A student's code is searched line by line. It is not parsed, because some code makes a parser very slow, or
+crashes it.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Wanted:
 
 
 def every_wanted(reference: Notebook) -> list[Wanted]:
-    """Return the exercises of a solution notebook, in the order of their cells."""
+    """Return the exercises of a solution notebook, in their order."""
     return [
         _wanted(part, cell["id"], cell["source"])
         for cell in code_cells(reference)

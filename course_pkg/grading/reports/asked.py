@@ -1,4 +1,4 @@
-"""The assigned chapters; they count in a student's total even if the student has not submitted them."""
+"""The assigned chapters, which count in a student's total even without a submission."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def _always(_student: str, _chapter: str) -> bool:
 
 @dataclass(frozen=True)
 class Column:
-    """A part that was graded or assigned; reports have a column for this part."""
+    """A part that was graded or assigned."""
 
     check: str
     chapter: str
@@ -50,7 +50,7 @@ class Asked:
 
 
 def columns_of(selected: Sequence[str], table: PointsTable) -> tuple[Column, ...]:
-    """Return the parts of the chapters `selected`, with the maximum points of each part."""
+    """Return the parts of the chapters `selected`, with their maximum points."""
     return tuple(
         Column(part.check, chapter, part.goal, table.parts[part.check].possible)
         for chapter in selected

@@ -10,7 +10,7 @@ from course_pkg.grading.grade import Flag
 from course_pkg.grading.reports.gradebook import Book, name_of
 from course_pkg.grading.reports.page import paragraph, text
 
-OTHERS = 10  # For one flag, a report lists at most this many other students.
+OTHERS = 10  # A report lists at most this many other students for one flag.
 ABOUT = (
     "A flag is a reason to look at an answer yourself. A flag does not change points, and the "
     "feedback for students contains no flags."

@@ -21,9 +21,9 @@ ABSENT = "These results are from an earlier run. In the latest run, nothing was 
 
 
 class Book:
-    """The grades of a class; methods return the grades of a student, a chapter or a part.
+    """The grades of a class, by student and chapter.
 
-    A note in the grade reports a submission that ran without a sandbox, or that was missing in this run.
+    A grade gets a note if the submission ran without a sandbox, or if this run had no submission.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class Book:
 
 
 def report_of(grade: Grade | None, check: str) -> Report | None:
-    """Return the report on a part, or None if the grade contains no report on this part."""
+    """Return the report on a part, or None if there is no such report."""
     return next((report for report in grade.reports if report.check == check), None) if grade else None
 
 
@@ -143,7 +143,7 @@ def attention(book: Book, student: str) -> list[str]:
 
 
 def not_handed_in(book: Book, student: str) -> str:
-    """Return a sentence that lists the chapters that a student has not submitted, or "" if there are none."""
+    """Return a sentence about the chapters that a student has not submitted, or ""."""
     there = {grade.chapter for grade in book.of(student)}
     missing = [chapter for chapter in book.counted(student) if chapter not in there]
     if not missing:
@@ -153,7 +153,7 @@ def not_handed_in(book: Book, student: str) -> str:
 
 
 def notes(book: Book, student: str) -> list[str]:
-    """Return the notes about a student's notebooks, without the notes that attention() already reports."""
+    """Return the notes about a student's notebooks that attention() does not report."""
     known = (ABSENT, NO_TIME)  # attention() already reports these notes.
     found = (note for grade in book.of(student) for note in grade.notes if note not in known)
     return list(dict.fromkeys(clean.line(note) for note in found))

@@ -21,7 +21,7 @@ def record_path(out: Path, student: str, chapter: str, origin: str = "") -> Path
 
 
 def write_record(out: Path, grade: Grade) -> Path:
-    """Write the record of a grade to a file, completely or not at all; return the path of this file."""
+    """Write the record of a grade, completely or not at all; return the path of the file."""
     path = record_path(out, grade.student, grade.chapter, grade.origin)
     code = {clean.line(part): clean.code(text) for part, text in grade.code.items()}
     write_json(path, {**clean.record(grade.as_dict()), "code": code})
@@ -29,7 +29,7 @@ def write_record(out: Path, grade: Grade) -> Path:
 
 
 def read_grades(out: Path) -> list[Grade]:
-    """Return the grades that are stored in the folder `out`, sorted by student and chapter."""
+    """Return the grades in the folder `out`, sorted by student and chapter."""
     paths = sorted(path for path in (out / RESULTS).glob("*/*.json") if not path.name.startswith("."))
     grades = [_read(path, f"record {number} of {len(paths)}") for number, path in enumerate(paths, 1)]
     return sorted(grades, key=lambda grade: (grade.student, grade.chapter, grade.origin))

@@ -131,8 +131,7 @@ def _handed_out(chapter: str) -> dict[str, str]:
 def _flags_by_part(grade: Grade) -> dict[str, list[Flag]]:
     """Return the flags of each part.
 
-    A flag belongs to a part if the flag is about the student's cell for the part, or about a file of the
-    part.
+    A flag belongs to a part if the flag is about the part's cell or about a file of the part.
 
     If a flag belongs to no part, the flag is added to the first part.
     """

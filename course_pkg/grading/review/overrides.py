@@ -4,8 +4,7 @@ An instructor can edit overrides.csv on the review page or in a spreadsheet.
 
 The columns are student, chapter, part, points, comment and answer. When the course writes the file,
 additional columns and empty lines do not change. A part is written as "Part 05.10", because a spreadsheet
-would change 05.10 to 5.1. The column answer contains a digest of the reviewed code; the instructor can leave
-this cell empty in a spreadsheet.
+would change 05.10 to 5.1. The column answer contains a digest of the reviewed code, or is empty.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ class Override:
     answer: str = ""
     # `line` is the number of the line in the file, counted from 1.
     line: int = field(default=0, compare=False)
-    # `bare` is True if the row contains only the number of the part, without the word "Part".
+    # `bare` is True if the row contains the part without the word "Part".
     bare: bool = field(default=False, compare=False)
 
     @property
@@ -127,9 +126,9 @@ class Overrides:
 
 
 def read_overrides(out: Path) -> Overrides:
-    """Return the overrides in the folder `out`; if there is no file overrides.csv, the result is empty.
+    """Return the overrides in the folder `out`; without a file, the result is empty.
 
-    Raises GradingError if the file is not a table of overrides; the message contains the line number.
+    Raises GradingError with the line number if the file is not a table of overrides.
     """
     path = out / FILE
     if not path.exists():
@@ -216,7 +215,7 @@ def _row(path: Path, line: int, cells: Mapping[str, str]) -> Override:
 
 
 def _part(path: Path, line: int, cell: str) -> str:
-    """Return the id of the part in a cell, which is "05.2" for the cells "Part 05.2", "05.2" and "5.2"."""
+    """Return the id of the part in a cell, such as "05.2" for "Part 05.2" or "5.2"."""
     named = cell.strip()
     part = two_digits(named.removeprefix(PREFIX.strip()))
     if not re.fullmatch(r"\d\d(\.\d+){1,2}", part):

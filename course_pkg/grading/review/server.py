@@ -41,7 +41,7 @@ def application(session: Session, token: str, port: Callable[[], int]) -> Applic
         ],
         default_handler_class=Unknown,
         default_handler_args=shared,
-        # No log is needed, because the page shows the reason for a refused request.
+        # No log is needed, because the page shows refused requests.
         log_function=lambda _handler: None,
     )
 
@@ -107,7 +107,7 @@ class Page(Handler):
 
 
 class Asset(Handler):
-    """Sends the script and the style sheet of the review page."""
+    """Sends the page's script and style sheet."""
 
     def get(self, name: str) -> None:
         """Send a file."""

@@ -54,7 +54,7 @@ class Session:
         self._numbers = {item.key: number for number, item in enumerate(self.items)}
 
     def describe(self) -> dict[str, Plain]:
-        """Return the data that the page shows: all answers, and all rows of overrides.csv."""
+        """Return the data for the page: all answers, and all rows of overrides.csv."""
         items = [
             {
                 "name": name_of(item.grade.student),
@@ -73,7 +73,7 @@ class Session:
         return self._shown(self._overrides.rows)
 
     def alike(self, number: int) -> list[Item]:
-        """Return the answers of other students that are identical to the answer with the number `number`."""
+        """Return the answers of other students that are identical to the answer `number`."""
         return identical(self.items[number], self._all)
 
     def is_being_written(self) -> bool:
@@ -151,7 +151,7 @@ class Session:
         try:
             return read_overrides(self._out).digest != self._overrides.digest
         except GradingError:
-            return True  # An error in a row is not reported, because the file is perhaps incomplete.
+            return True  # A wrong row is not reported, because the file can be incomplete.
 
     def _shown(self, rows: Rows) -> dict[str, Plain]:
         numbered = ((self._numbers.get(key), row) for key, row in rows.items())

@@ -92,7 +92,7 @@ class Lists:
         sheet = _Search([each.person for each in listed], WORKSHEET)
         roster = _Search(self.roster or (), ROSTER)
         for student in students:
-            # If the submission is not from a platform, the folder name can contain any field of the student.
+            # Without a platform, the folder name can contain any field of the student.
             text = "" if student in platform else student
             sheet.search(student, platform.get(student), text)
             roster.search(student, _joined(sheet.found.get(student), platform.get(student)), text)
@@ -141,10 +141,7 @@ class _Search:
         self.lines: set[int] = set()
 
     def decided(self, student: str) -> bool:
-        """Return whether the search for a student is finished.
-
-        The search is finished if the row was found, or if several rows are possible.
-        """
+        """Return whether the row of a student was found, or several rows are possible."""
         return student in self.found or student in self.unclear
 
     def search(self, student: str, known: Person | None, text: str) -> None:

@@ -1,8 +1,8 @@
 """Finds a student's row in a list, from the data in a submission.
 
-For each field that is known from the submission (a number, an email address or a name), the rows with the
-same value are found. A field is ignored if no row has the same value. If exactly one row matches all
-remaining fields, this row belongs to the student.
+For each known field (a number, an email address or a name), the rows with the same value are found. A field
+is ignored if no row has the same value. If exactly one row matches all remaining fields, this row belongs to
+the student.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ class Match:
 
     person: Person | None = None
     problem: str = ""
-    # If several rows are possible, `possible` contains the line numbers of these rows.
+    # `possible` contains the line numbers of the possible rows if there are several.
     possible: frozenset[int] = frozenset()
 
 
 class People:
-    """The rows of a list; a row can be found by each field, such as the name or the email address."""
+    """The rows of a list; a row can be found by each of its fields."""
 
     def __init__(self, people: Iterable[Person], title: str) -> None:
         self._people = tuple(people)
@@ -39,8 +39,7 @@ class People:
     def find(self, known: Person, text: str = "") -> Match:
         """Return the row that belongs to the person `known`.
 
-        `text` is a folder name that an instructor chose; it can be the value of any field, such as the email
-        address.
+        `text` is a folder name that an instructor chose; it can be the value of any field.
         """
         proposals = [rows for rows in self._proposals(known, text) if rows]
         if not proposals:
@@ -98,10 +97,9 @@ def orders(name: str) -> set[str]:
 
 
 def _agree(one: str, other: str) -> bool:
-    """Return whether the names `one` and `other` can belong to the same student.
+    """Return whether the names `one` and `other` can belong to one student.
 
-    Moodle can write the name of a group before a student's name; therefore, other text at the beginning of
-    `one` is allowed.
+    Text before the student's name in `one` is allowed, because Moodle can write the name of a group there.
     """
     return not one or not other or any(folded(one).endswith(order) for order in orders(other))
 

@@ -4,7 +4,7 @@ The first line contains the names of the columns, in any order: name, id, email,
 one of the columns name, id, email and username is required. The course also understands the columns of Canvas
 (Student, ID, SIS Login ID, Section), Gradescope (First Name, Last Name, SID, Email, Sections) and Moodle
 (First name, Last name, Email address, ID number, Username). Therefore, an export from one of these platforms
-can be used as a roster. The values of other columns are stored under the columns' names.
+is a roster. The values of other columns are stored under the columns' names.
 """
 
 from __future__ import annotations
@@ -53,12 +53,12 @@ class Person:
 
     @property
     def label(self) -> str:
-        """A text that identifies the person for a reader: the name, or else another known field."""
+        """A name for the person: the field `name`, or else another known field."""
         known = (self.name, self.username, self.email, self.id, self.number)
         return next(filter(None, known), f"line {self.line}")
 
     def completed(self, other: Person) -> Person:
-        """Return a copy of this person in which the empty fields have the values of `other`."""
+        """Return a copy of this person; its empty fields have the values of `other`."""
         gaps = {key: getattr(other, key) for key in (*FIELDS, "number") if not getattr(self, key)}
         return replace(self, **gaps)
 

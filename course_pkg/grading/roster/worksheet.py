@@ -133,9 +133,8 @@ class Worksheet:
 
         The keys of `graded` are the indices of the participants' rows.
 
-        Only the cells with grades and feedback change; all other bytes of the file do not change. A grade is
-        a number such as "7.5". If the maximum grade in a row has a decimal comma, the new grade in this row
-        also gets a decimal comma.
+        Only the cells with grades and feedback change. A grade is a number such as "7.5". The grade gets a
+        decimal comma if the maximum grade in the same row has a decimal comma.
         """
         changed = deepcopy(self._records)
         for place, (grade, feedback) in graded.items():

@@ -1,1 +1,1 @@
-"""One run of `course grade`: the selection, the cluster, the results of earlier runs, and the output."""
+"""One run of `course grade`: its selection, its cluster, earlier results, and its output."""

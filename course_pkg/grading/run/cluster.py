@@ -47,7 +47,7 @@ class Cluster:
         return CancelledError, KilledWorker, ImportError, RuntimeError
 
     def explained(self, error: BaseException) -> GradingError:
-        """Return an error that explains the exception `error` from dask, and says what the user can do."""
+        """Return an error that explains dask's exception `error`, and says what the user can do."""
         if isinstance(error, CancelledError):
             return self._lost()
         if isinstance(error, (ImportError, RuntimeError)):
@@ -70,7 +70,7 @@ class Cluster:
 
 
 def no_workers(scheduler: str, patience: float) -> GradingError:
-    """Return the error that is raised if a scheduler has no workers."""
+    """Return the error for a scheduler without workers."""
     return GradingError(
         f"The dask scheduler at {scheduler} has had no worker for {patience:g} s, so nothing can be "
         "graded. Start workers with the following command, and then type your command again: "

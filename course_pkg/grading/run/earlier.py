@@ -27,7 +27,7 @@ class Earlier:
     def find(self, student: str, chapter: str) -> Grade | None:
         """Return a student's earlier grade for a chapter, or None.
 
-        The grade contains the points of the checks, not the points that an instructor has set.
+        The grade contains the points of the checks, not an instructor's points.
         """
         found = self._by_chapter.get((student, chapter)) if chapter else None
         return found.unreviewed() if found else None
@@ -35,11 +35,11 @@ class Earlier:
     def rest(self, graded: Sequence[Grade], selected: Selection) -> list[Grade]:
         """Return the earlier grades that the reports contain in addition to the new grades `graded`.
 
-        The returned grades contain the points of the checks, not the points that an instructor has set.
+        The returned grades contain the points of the checks, not an instructor's points.
 
         An earlier grade is marked as absent if this run selects the student and the chapter, but the student
-        has no submission. However, if a run without a selection has no submission at all for a chapter, the
-        grades for this chapter are not marked, because the chapter probably belongs to another assignment.
+        has no submission. However, if a run without a selection has no submission for a chapter, the
+        chapter's grades are not marked, because the chapter probably belongs to another assignment.
         """
         chapters = {grade.chapter for grade in graded}
         now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}

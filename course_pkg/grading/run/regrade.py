@@ -43,8 +43,8 @@ class Regrade:
 
         All submissions in `alike` get the grade `graded`. If only `parts` were graded, the new reports on
         these parts replace the reports in the stored grade. A stored grade that was computed with other
-        options or another version of the checks is removed. If such a grade stayed in the store, a later run
-        of the whole notebook could use the old points.
+        options or another version of the checks is removed. If such a grade stayed, a later run of the whole
+        notebook could use its points.
         """
         if not parts:
             store.keep(graded)

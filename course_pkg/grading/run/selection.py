@@ -108,7 +108,7 @@ def merged(base: Grade, again: Grade) -> Grade:
 def _student(name: str, known: Sequence[str]) -> str:
     """Return the full name of the student that `name` means.
 
-    The number that a platform adds to a student's name can be missing in `name`.
+    In `name`, the number that a platform adds to a name can be missing.
     """
     identity = clean.identity(name)
     if identity in known:

@@ -24,7 +24,7 @@ def last_line(graded: Sequence[Grade]) -> str:
 
 
 def about_empty(graded: Sequence[Grade]) -> list[str]:
-    """Return a line about students with empty folders, or no line if there are no such students."""
+    """Return a line about students with empty folders, or no line if there are none."""
     names = [name_of(grade.student) for grade in graded if grade.nothing]
     return (
         [f"These students handed in nothing, because their folders are empty: {_listed(names)}."]
@@ -34,7 +34,7 @@ def about_empty(graded: Sequence[Grade]) -> list[str]:
 
 
 def about_flags(grades: Sequence[Grade]) -> list[str]:
-    """Return a line about students with flags, or no line if there are no such students."""
+    """Return a line about students with flags, or no line if there are none."""
     count = len({grade.student for grade in grades if grade.flags})
     students = "1 student has" if count == 1 else f"{count} students have"
     return (

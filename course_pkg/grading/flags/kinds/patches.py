@@ -32,7 +32,7 @@ def _observe(program: Program) -> Iterator[Observation]:
 
 
 def _changed(node: ast.Attribute | ast.Subscript, program: Program) -> str:
-    """Return the name of the imported object that an assignment changes, or "" if there is no such object."""
+    """Return the name of the imported object that an assignment changes, or ""."""
     if isinstance(node, ast.Attribute):
         return _name(node, program)
     inside = _name(node.value, program)

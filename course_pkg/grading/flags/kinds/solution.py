@@ -25,10 +25,10 @@ def find(group: Group) -> Iterator[Found]:
     """Yield a flag for each answer that is identical or nearly identical to the course's solution.
 
     A short answer that is equal to the solution does not prove copying, because many students write the same
-    code. Therefore, the statements in the unchanged exercise cells that students get are not counted. A
-    student's answers that are identical to the solutions are reported only if they contain at least ten other
-    statements in total. A nearly identical answer is reported only if the solution of this exercise contains
-    at least ten other statements.
+    code. Therefore, the statements in the unchanged exercise cells that students get are not counted. Answers
+    that are identical to the solutions are reported only if they contain at least ten other statements in
+    total. A nearly identical answer is reported only if the solution of this exercise contains at least ten
+    other statements.
     """
     blanks = blank_fingerprints(group)
     own = {name: fingerprint(answer) for name, answer in group.solution.items()}

@@ -6,9 +6,9 @@ the row " Points Possible". The file lib/gradebook_importer.rb finds a student b
 If there is no ID, the importer uses the SIS User ID, the SIS Login ID or the name. The importer finds an
 assignment by the assignment's name, with or without the number in parentheses. If Canvas does not know the
 name, the importer offers to create the assignment. The row " Points Possible" sets the points of the
-assignment. If a cell in a student's row is empty, the import removes the grade. If the student has no row,
-the grade does not change. Therefore, canvas.csv has no row for a student without a grade, and canvas/NN.csv
-has rows only for students who submitted the chapter.
+assignment. An empty cell removes the student's grade. If the student has no row, the grade does not change.
+Therefore, canvas.csv has no row for a student without a grade, and canvas/NN.csv has rows only for students
+who submitted the chapter.
 """
 
 from __future__ import annotations

@@ -189,7 +189,7 @@ def _listed(reasons: Sequence[str]) -> str:
 
 
 def _link(student: str) -> str:
-    """Return a link to the feedback page of a student.
+    """Return a link to the feedback page.
 
     The file name of a feedback page contains no HTML characters, so the name is not escaped.
     """

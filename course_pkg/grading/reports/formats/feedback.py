@@ -106,7 +106,7 @@ def _printed(report: Report) -> str:
 
 
 def _cells(grade: Grade) -> Iterator[str]:
-    """Yield the result of nbval, with the cells whose outputs differ from the outputs of the solution."""
+    """Yield the result of nbval, with the cells whose outputs differ from the solution's outputs."""
     if not grade.cells:
         return
     others = [cell for cell in grade.cells if cell.outcome != "passed"]

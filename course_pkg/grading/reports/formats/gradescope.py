@@ -49,7 +49,7 @@ def results_of(grades: Sequence[Grade]) -> dict[str, Plain]:
         text for grade in grades for text in (grade.problem, about_lateness(grade), *grade.notes) if text
     ]
     return {
-        # Gradescope uses `score`, not the sum of the tests. This score includes the deduction for lateness.
+        # Gradescope uses `score`, which includes the deduction for lateness, not the sum of the tests.
         "score": round(sum(grade.earned for grade in grades), 2),
         "output": "\n".join(clean.line(text) for text in words),
         "output_format": "text",

@@ -3,8 +3,8 @@
 Only the columns Grade and Feedback comments change, and only in rows of students with a submission and an
 unlocked grade. If Moodle's maximum grade differs from the possible points, the points are scaled. Without
 this scaling, Moodle would read 9 of 9 points as 9 of 100 points. If the points are scaled, the feedback also
-contains the unscaled points. A worksheet belongs to one assignment, so the grade is the sum of the points of
-all chapters of the run.
+contains the unscaled points. A worksheet belongs to one assignment, so the grade is the sum of all chapters
+of the run.
 """
 
 from __future__ import annotations

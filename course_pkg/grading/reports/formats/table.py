@@ -47,7 +47,7 @@ def write(book: Book, out: Path) -> None:
 
 
 def _row(book: Book, student: str) -> list[str]:
-    """Return the row of a student in grades.csv.
+    """Return a student's row in grades.csv.
 
     Cells for missing submissions are empty. Only the totals include the deduction for lateness.
     """
