@@ -35,8 +35,8 @@ SAME = 0.95  # If a single answer is the reason for a flag, its similarity must 
 # One answer is enough to flag a pair if the two answers have at least OWN_CODE features of the code in common
 # that at most one other student has.
 OWN_CODE = 15
-# One answer is also enough if the two answers have at least OWN_WORDS comments, strings or names in common
-# that at most one other student has.
+# One answer is also enough to flag a pair if the two answers have at least OWN_WORDS comments, strings or
+# names in common that at most one other student has.
 OWN_WORDS = 3
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)

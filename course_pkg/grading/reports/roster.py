@@ -46,7 +46,7 @@ def lead(book: Book) -> str:
 
 
 def section(book: Book) -> Iterator[str]:
-    """Yield the section of class.html about the roster; without lists, yield nothing."""
+    """Yield the section of class.html about the roster; without a roster or a worksheet, yield nothing."""
     known = book.class_list
     if not known.given:
         return

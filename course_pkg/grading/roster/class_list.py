@@ -92,7 +92,7 @@ class Lists:
         sheet = _Search([each.person for each in listed], WORKSHEET)
         roster = _Search(self.roster or (), ROSTER)
         for student in students:
-            # Without a platform, the folder name can contain any field of the student.
+            # If no platform is used, the folder name can contain any field of the student.
             text = "" if student in platform else student
             sheet.search(student, platform.get(student), text)
             roster.search(student, _joined(sheet.found.get(student), platform.get(student)), text)

@@ -25,14 +25,14 @@ class Record:
     line: int
 
     def value(self, place: int) -> str:
-        """Return the value of the cell `place`, without quotes."""
+        """Return the value of the cell with the index `place`, without quotes."""
         written = self.cells[place]
         if len(written) >= 2 and written[0] == written[-1] == '"':
             return written[1:-1].replace('""', '"')
         return written
 
     def put(self, place: int, value: str, separator: str) -> None:
-        """Write a value into the cell `place`.
+        """Write a value into the cell with the index `place`.
 
         The new cell is quoted if the old cell was quoted, or if the value needs quotes.
         """
