@@ -26,7 +26,7 @@ LOCK = 5.0
 
 
 def state_folder() -> Path:
-    """Return the folder of this user's state: COURSE_STATE, or a folder below XDG_STATE_HOME.
+    """Return the folder of this user's state: the value of COURSE_STATE, or a folder below XDG_STATE_HOME.
 
     In a shared installation, the state is in the user's own folder.
     """

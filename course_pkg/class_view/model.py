@@ -14,9 +14,9 @@ from course_pkg.types.fields import Plain
 
 @dataclass
 class Cell:
-    """One part of one student. Times are in s since 1970; 0 means "never"."""
+    """A student's checks of one part of a chapter. Times are in s since 1970; 0 means "never"."""
 
-    tries: int = 0  # the number of checks until the first pass, without the checks of blank answers
+    tries: int = 0  # number of checks until the first pass; a check of a blank answer does not count
     passed: float = 0.0  # the time of the first pass
     stuck: float = 0.0  # the time of the first check that did not pass
     last: float = 0.0  # the time of the last check

@@ -96,7 +96,7 @@ def collect(options: Options) -> int:
             ),
         ):
             table = TimesTable(out)
-            # The table is written first, so that a user can repeat an interrupted collection.
+            # times.csv is written first, so that a user can repeat an interrupted collection.
             table.replace((), ())
             for home in homes:
                 _collect_one(home, folder, wanted, out, table, found)
@@ -138,7 +138,7 @@ def _collect_one(
 
 
 def _rows(student: str, files: Sequence[WorkFile], wanted: Wanted) -> Iterator[Row]:
-    """Yield a row for each file, and a row for each package with the time of its newest file."""
+    """Yield the rows of times.csv: one per file, and one per package with the time of its newest file."""
     newest: dict[str, WorkFile] = {}
     for file in files:
         for chapter in wanted.chapters_of(file):

@@ -1,6 +1,6 @@
 """One-time passwords: each password is accepted once.
 
-After that, a cookie in the browser identifies the student.
+After the login, a cookie in the browser identifies the student.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Passwords:
 class _Record:
     """A context manager that reads the file at the start of the `with` block, and writes it at the end.
 
-    Other processes wait during the block.
+    During the block, other processes that use the file wait.
     """
 
     def __init__(self, file: Path) -> None:

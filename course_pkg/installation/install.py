@@ -66,7 +66,7 @@ def _version_id(edition: Path) -> str:
 
 
 def _make(version: Path, edition: Path) -> None:
-    """Build a version; it is complete when its record exists. If the build fails, only the log is kept."""
+    """Build a version; installation.json is written last. If the build fails, only the log is kept."""
     places = Places(version / "course", version / BUILT)
     shutil.rmtree(version, ignore_errors=True)
     # uv has to copy files. With hard links to uv's cache, the owner of this cache could change the

@@ -70,7 +70,7 @@ def _signals_held_back() -> Iterator[None]:
 
 
 def _wait(process: SupervisedProcess) -> int:
-    """Wait for the end of `process`; forward each signal that `process` does not receive itself."""
+    """Wait for the end of `process`; forward each signal that the terminal does not send to `process`."""
     while (status := process.returncode) is None:
         received = signal.sigwaitinfo(AWAITED)
         # A signal that comes from the terminal has pid 0. The terminal sends the same signal to the command,

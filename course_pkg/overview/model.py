@@ -32,7 +32,7 @@ class PartProgress:
 
     @property
     def earned(self) -> float:
-        """The points of a passed part, or the points of the last check."""
+        """All points of the part if it has passed, else the points of its last check."""
         return self.possible if self.passed else self.record.points if self.record else 0
 
     @property

@@ -45,7 +45,7 @@ def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
 def _following(
     progress: Progress, current: ChapterProgress, by_number: dict[str, ChapterProgress]
 ) -> dict[str, list[str]]:
-    """Return the numbers of the next incomplete chapters; the values are the paths that lead to them."""
+    """Return a dict from the number of each next incomplete chapter to the names of its learning paths."""
     found: dict[str, list[str]] = {}
     for path in progress.paths:
         chapters = [by_number[number] for number in path.chapters if number in by_number]

@@ -49,7 +49,7 @@ def run_commands(sock: socket.socket, folder: str, own: str) -> None:
     """Execute the requests of the check runner until the check runner closes the channel.
 
     In a sandbox, the student's folder is read-only. `own` is a folder for the files of ROS and for temporary
-    files; other processes cannot read `own`. Without a sandbox, `own` is empty.
+    files; other processes cannot read `own`. Without a sandbox, `own` is an empty string.
     """
     if own:
         be_unreadable()

@@ -1,4 +1,4 @@
-"""The printer of a cash register; without ROS."""
+"""The printer of a cash register; independent of ROS."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The customers that a camera sees at a counter, and functions that wait for a customer; without ROS.
+"""The customers that a camera sees at a counter, and functions that wait for one; independent of ROS.
 
 A Watch receives messages with the customers' numbers. An Eye receives frames, which are pictures of the
 counter.

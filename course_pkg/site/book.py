@@ -38,7 +38,7 @@ LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
 def prefix(chapter: Chapter) -> str:
     """Return the prefix of the anchors of a chapter.
 
-    In the book, all chapters are on one page, so anchors of different chapters need different prefixes.
+    All chapters of the book are on one page, so anchors of different chapters need different prefixes.
     """
     return f"c{chapter.number}-"
 

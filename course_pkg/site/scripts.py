@@ -1,6 +1,6 @@
 """Joins the front ends of all panels into one classic script.
 
-A page in a local folder cannot load modules.
+A page in a local folder cannot load JavaScript modules.
 """
 
 from __future__ import annotations

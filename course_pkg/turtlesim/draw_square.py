@@ -25,7 +25,7 @@ SLOW = 4.0
 
 @dataclass(frozen=True)
 class Walker:
-    """The pose at the beginning of the current side or corner; `turning` is true at a corner."""
+    """The pose at the beginning of the square's current side or corner; `turning` is true at a corner."""
 
     x: float
     y: float

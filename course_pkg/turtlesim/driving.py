@@ -59,6 +59,7 @@ def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> 
         now, period = time.monotonic(), 1.0 / driver.rate
         if now - last >= period:
             publish(to_twist(driver.velocity()))
-            # If this thread was delayed, it does not publish the late velocities.
+            # After a delay of this thread, skip the velocities that should have been published in the
+            # meantime.
             last = max(last + period, now - SLICE)
         time.sleep(min(max(last + period - time.monotonic(), 0.0), SLICE))

@@ -23,7 +23,8 @@ from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
 FIRST = "turtle1"  # This turtle exists after a reset.
-# Requests take at most this time in s in one tick. So even many requests delay a pose by at most this time.
+# In one tick, the simulator handles requests for at most this time in s. Therefore, even many requests delay
+# a pose by at most this time.
 BUDGET = 0.008
 # Ticks that are more than this time in s late are skipped, for example after the machine was suspended.
 MAX_DELAY = 0.25

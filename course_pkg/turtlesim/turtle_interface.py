@@ -1,7 +1,7 @@
 """The topics and services of a turtle.
 
-With a queue, rospy starts a thread for each subscriber of a topic. This thread wakes up for each message, and
-1,500 messages per second would take most of the CPU time. Without a queue, rospy writes each message
+If a publisher has a queue, rospy starts a thread for each subscriber. This thread wakes up for each message,
+and 1,500 messages per second would take most of the CPU time. Without a queue, rospy writes each message
 directly. The publisher then has to wait if a subscriber does not read.
 
 A turtle therefore writes a message directly if the connection's buffer has space. If the buffer has no space,
@@ -65,7 +65,7 @@ class TurtleInterface:
         ]
 
     def publish(self) -> None:
-        """Publish the turtle's pose and velocity, and the colour under it."""
+        """Publish the turtle's pose and velocity, and the colour under the turtle."""
         turtle, velocity = self.turtle, self.turtle.velocity
         try:
             self._pose.publish(Pose(turtle.x, turtle.y, turtle.theta, turtle.speed, velocity.turn))

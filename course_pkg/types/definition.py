@@ -69,7 +69,7 @@ def lines(text: str) -> Iterator[Line]:
 
 
 def with_unix_line_ends(text: str) -> str:
-    """Return the text with the line endings of Linux. The build reads the same text with Python's open()."""
+    """Return the text with the line endings of Linux. In a build, Python's open() makes the same change."""
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 

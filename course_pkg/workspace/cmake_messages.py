@@ -1,8 +1,8 @@
 """The messages of CMake in the output of a build, their meaning, and the commands in a CMakeLists.txt.
 
 CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error;
-the student's line is in the call stack below the message. A row of a table is (pattern, file, problem,
-remedy). If `file` is empty, the fault is in the file that the message names.
+the student's line is in the call stack below the message. Each row of a table of messages is (pattern, file,
+problem, remedy). If `file` is empty, the fault is in the file that the message names.
 """
 
 from __future__ import annotations

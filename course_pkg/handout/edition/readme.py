@@ -33,7 +33,7 @@ def student_readme(text: str, released: Sequence[str], known: Sequence[str], hid
 def unlinked(text: str, released: Collection[str]) -> str:
     """Return Markdown without links to the notebooks of unreleased chapters.
 
-    The texts of these links do not change.
+    Only the text of such a link remains.
     """
     return LINK.sub(lambda link: link[0] if link[2] in released else link[1], text)
 

@@ -129,7 +129,7 @@ def _kill_all(uid: int, killer: int) -> None:
     """Kill all processes of `uid` in one system call, so that no process can fork before it is killed.
 
     Only the effective user id of the killing process is `uid`. The killed processes therefore cannot send
-    signals to it.
+    signals to the killing process.
     """
     if not (pid := os.fork()):
         try:

@@ -68,7 +68,7 @@ class _Renderer(HTMLRenderer):
         return f'<div class="wide"><table>{text}</table></div>\n'
 
     def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
-        # An empty cell in the header row of a table is not a header.
+        # In the header row of a table, an empty cell becomes <td>, not <th>.
         tag = "th" if head and text.strip() else "td"
         style = f' style="text-align:{align}"' if align else ""
         return f"<{tag}{style}>{text}</{tag}>"
