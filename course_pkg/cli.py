@@ -109,7 +109,8 @@ def _dispatch(arguments: Sequence[str]) -> int:
 def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
     """Create the missing parts of the environment, and set the environment's variables.
 
-    For a command that imports libraries, the Python interpreter of the environment replaces this process.
+    For a command that imports libraries, the Python interpreter of the virtual environment replaces this
+    process.
     """
     from course_pkg.setup import Places, ensure, environment
 

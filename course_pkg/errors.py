@@ -44,7 +44,7 @@ CourseError
 ├── ExportFailed: a file with the student's progress cannot be written
 └── SiteError: the site cannot be built, or a check of the built site failed
 
-Each message explains what happened, where, and what to do next.
+Each error message explains what happened, where, and what to do next.
 """
 
 from __future__ import annotations
@@ -175,7 +175,7 @@ class UnknownExecutable(GraphError):
 class NodeFailed(GraphError):
     """The process of a node ended.
 
-    `output` is the last text of its output, and `returncode` is its exit status.
+    `output` is the end of the process's output, and `returncode` is the exit status of the process.
     """
 
     def __init__(self, message: str, output: str = "", returncode: int | None = None) -> None:

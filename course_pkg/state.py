@@ -1,7 +1,7 @@
 """The folder for a student's results and own packages.
 
-Each checkout has its own folder outside the checkout. In a shared installation, the folder is in the user's
-own folder, so that an upgrade of the installation does not change the results.
+Each checkout has its own state folder, which is outside the checkout. In a shared installation, the folder is
+in the user's own folder, so that an upgrade of the installation does not change the results.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from course_pkg.files import write_atomically
 from course_pkg.installed import DATA, own_folder, version_folder
 from course_pkg.waiting import wait_until
 
-# A program waits at most this time in s for a lock; each program writes only one small file.
+# A program waits at most this time in s for a lock; this is enough, because each program writes only one
+# small file.
 LOCK = 5.0
 
 

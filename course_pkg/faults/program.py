@@ -59,7 +59,7 @@ class Seen:
 class Program:
     """A Python program or a command in a separate process.
 
-    The process ends at the latest when the current process ends.
+    The program's process ends at the latest when the current process ends.
 
     A Python program waits for begin(); a command begins at once.
     """
@@ -171,7 +171,8 @@ class Program:
 def _still(pid: int) -> bool:
     """Return whether all threads of a process are suspended.
 
-    The states are read from /proc, because psutil returns only one state for the whole process.
+    The states of the threads are read from /proc, because psutil returns only one state for the whole
+    process.
     """
     try:
         stats = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/stat")]

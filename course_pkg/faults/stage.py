@@ -30,7 +30,7 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 REAPER = Path(__file__).with_name("reaper.py")
-# In these environment variables, the stage sets folders for log files and other files.
+# The stage sets these environment variables to folders for log files and other files.
 FOLDERS = ("ROS_LOG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")
 READY = 10.0  # A program has to be on the graph within this time in s; usually, this takes 0.4 s.
 NAMESPACES = ("/lab", *(f"/lab{number}" for number in range(2, 10)))
@@ -204,7 +204,8 @@ class Stage:
     def local(self, text: str) -> str:
         """Return `text` with the real namespace and the real port.
 
-        The stage's namespace replaces /lab, and the port of the stage's master replaces MASTER_PORT.
+        In `text`, the stage's namespace replaces /lab, and the port of the stage's master replaces
+        MASTER_PORT.
         """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 

@@ -55,7 +55,7 @@ class Wanted:
 
     def __init__(self, chapters: Sequence[str]) -> None:
         self.notebooks = {notebook_of(chapter): chapter for chapter in chapters}
-        # The keys are all chapters of the course, and the values are the packages that they require.
+        # This dict maps each chapter of the course to the packages that the chapter requires.
         self._asking: dict[str, set[str]] = {}
         for chapter in all_chapters():
             for name in (name for part in parts_of(chapter) for name in part.package_files):

@@ -73,14 +73,14 @@ def pull(repository: str, folder: Path) -> None:
 
 
 def _serve() -> None:
-    # jupyterlab runs `node` when it is imported, see course_pkg/lab/__main__.py
+    # without programs on PATH, the import of jupyterlab cannot run `node`, see course_pkg/lab/__main__.py
     path = os.environ["PATH"]
     os.environ["PATH"] = os.devnull
     import jupyterlab.labapp  # noqa: F401
 
     os.environ["PATH"] = path
     with _without_database():
-        # main() imports this module by its name.
+        # Import this module while the empty modules exist; otherwise, main() imports it later.
         import jupyterhub.singleuser.extension  # noqa: F401
         from jupyterhub.singleuser import main as serve
 

@@ -129,8 +129,8 @@ def renew_password(user: str, data: Path | None) -> int:
 def data_folder(places: Places, given: Path | None) -> Path:
     """Return the folder of the hub's data. Students can read this folder, except its subfolder `private`.
 
-    In a shared installation, this folder is next to the folders of the versions, so an upgrade does not
-    delete it.
+    In a shared installation, the folder of the hub's data is next to the folders of the versions, so an
+    upgrade does not delete the data.
     """
     version = version_folder(places.checkout)
     return (given or (version.parents[1] if version else places.cache) / "hub").absolute()

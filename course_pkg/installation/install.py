@@ -99,8 +99,8 @@ def _compile(places: Places) -> None:
     start.
     """
     folders = [places.checkout / "course_pkg", places.venv / "lib", places.workspace / "devel" / "lib"]
-    # The exit status is ignored, because some libraries contain files that this version of Python cannot
-    # compile.
+    # The exit status of compileall is ignored, because some libraries contain files that this version of
+    # Python cannot compile.
     subprocess.run([places.python, "-m", "compileall", "-qq", "-j", "0", *folders], check=False)
 
 

@@ -163,7 +163,7 @@ def undelayed(stock: type[Connection]) -> type[Connection]:
 class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base class has no types.
     """Stores the checkpoints of notebooks in a folder outside the checkout.
 
-    In this folder, each checkpoint has the same path as its notebook.
+    In the folder of the checkpoints, each checkpoint has the same path as its notebook in the checkout.
 
     Jupyter's own class would store the checkpoints of a chapter and of its solution in the same file, because
     both notebooks have the same name.
@@ -190,7 +190,7 @@ class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base
 def kernel_language() -> dict[str, Any]:
     """Return the same data about the language as ipykernel's message kernel_info_reply.
 
-    The class ipykernel.ipkernel.IPythonKernel has these data, but importing it would delay the server's
+    The class ipykernel.ipkernel.IPythonKernel has the data, but importing this class would delay the server's
     start.
     """
     return {

@@ -28,8 +28,8 @@ AWAITED = {signal.SIGCHLD, signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
 def run_command(command: Sequence[str], which: Which = Which.RUNNING) -> int:
     """Run `command` on a graph, end its background processes, and return its exit status.
 
-    The status is 128 + n if signal n ended the command. Raises GraphError if the graph or the command cannot
-    be started.
+    The exit status is 128 + n if signal n ended the command. Raises GraphError if the graph or the command
+    cannot be started.
     """
     if list(command) == ["bash"]:
         command = SHELL

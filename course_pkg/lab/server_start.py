@@ -79,8 +79,8 @@ def _is_at(address: Address) -> bool:
 def start_kernel(address: Address, notebook: str) -> None:
     """Start the notebook's kernel while the page loads, so that the page finds a running kernel.
 
-    If this fails, the page starts the kernel itself. If the page cannot start the kernel either, the page
-    shows the reason.
+    If the start of the kernel fails, the page starts the kernel itself. If the page cannot start the kernel
+    either, the page shows the reason.
     """
     if not notebook:
         return

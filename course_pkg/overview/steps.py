@@ -21,7 +21,8 @@ class Step:
 def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
     """Return the next steps in `chapter`, or in the chapter in which the student worked last.
 
-    If this chapter is complete, each path may have a different next step. The result has at least one step.
+    If the chapter is complete, each learning path can have a different next step. The result has at least one
+    step.
     """
     by_number = {each.number: each for each in progress.chapters}
     current = by_number.get(chapter) or progress.current

@@ -218,8 +218,8 @@ class Session:
                 receive(self._fork_server, END_TIMEOUT)
             except TimeoutError:
                 end([self._supervisor])
-                # The next job must not receive this message. If the message does not arrive, this worker is
-                # not used any more.
+                # Receive the message about the end of the supervisor here, because the next job must not
+                # receive it. If the message does not arrive, this worker is not used any more.
                 receive(self._fork_server, KILLED_TIMEOUT)
 
 

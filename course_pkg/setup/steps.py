@@ -24,7 +24,8 @@ EXTRAS = {"course": "", "hub": " of the hub", "test": " of the tests"}
 class Step(NamedTuple):
     """One step of the set-up.
 
-    `is_done` runs at every start, so it must be fast. `makes` is the folder that the step creates.
+    The function `is_done` runs at every start of `course`, so this function must be fast. `makes` is the
+    folder that the step creates.
     """
 
     title: str

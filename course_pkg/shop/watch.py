@@ -16,7 +16,7 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-# While a thread waits, it checks at least once in this time (s) when the camera sent its last message.
+# A waiting thread checks after at most this time (s) again whether the camera has sent a message.
 POLL = 0.25
 # If an Eye receives no valid frame for this many s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0

@@ -153,8 +153,8 @@ class Settings(NamedTuple):
 class Folder:
     """The folder of a site during writing; it is a context manager.
 
-    If the block ends without an exception, the files of an earlier site are removed, except those that the
-    block has written again.
+    If the `with` block ends without an exception, the files of an earlier site are removed, except those that
+    the block has written again.
     """
 
     def __init__(self, path: Path) -> None:

@@ -180,8 +180,8 @@ def description(svg: str) -> str:
 def terminal(text: str) -> str:
     """Return the output of a terminal as HTML.
 
-    Colours do not change. A carriage return overwrites the line, as in a terminal. All other control codes
-    are removed.
+    The HTML shows the colours of the output. A carriage return overwrites the line, as in a terminal. All
+    other control codes are removed.
     """
     lines = (line.rpartition("\r")[2] for line in text.replace("\r\n", "\n").split("\n"))
     return str(ansi2html(CONTROL.sub("", "\n".join(lines)))).strip("\n")

@@ -53,7 +53,7 @@ class Choice(NamedTuple):
 class LearningPath(NamedTuple):
     """A selection of chapters that a reader can understand without any other chapter.
 
-    A path with two possible last chapters has two choices.
+    A path with two possible last chapters has two objects Choice.
     """
 
     name: str

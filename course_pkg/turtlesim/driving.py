@@ -52,7 +52,7 @@ def to_twist(velocity: tuple[float, float]) -> Twist:
 def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> None:
     """Publish the driver's velocity `driver.rate` times per second, until `over()` is true.
 
-    The rate may change while this function runs.
+    The rate can change while this function runs.
     """
     last = -float("inf")
     while not over():

@@ -1,7 +1,7 @@
 """The lines of a .srv or .msg text: the declaration in each line, and its comments.
 
-The rules are from genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The text must be valid; the module `diagnosis`
-explains the mistakes in an invalid text.
+The rules for a definition are from genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The text must be valid; the
+module `diagnosis` explains the mistakes in an invalid text.
 """
 
 from __future__ import annotations

@@ -88,7 +88,7 @@ class MessageType:
     def built(self) -> bool:
         """Whether Python can import the class from its package.
 
-        If the value is False, the class was generated from the definition.
+        If `built` is False, the class was generated from the definition.
         """
         return not hasattr(self.cls, "_dependencies")
 
@@ -177,7 +177,7 @@ def compile_service(name: str, text: str) -> ServiceType:
 def compile_message(name: str, text: str) -> MessageType:
     """Return the message type called `name` that is defined by the text of a .msg file.
 
-    The mistakes and the errors are the same as for `compile_service`.
+    This function refuses the same mistakes, and raises the same errors, as `compile_service`.
     """
     return _message(compiled_message(name, text, f"{name}.msg", strict=True))
 

@@ -87,7 +87,7 @@ def cmake_commands(text: str) -> Iterator[Command]:
 def unknown_command(name: str, message: Message) -> Fault:
     """Return the fault for an unknown command.
 
-    The package of the command was not found, or the name is misspelt.
+    The package that defines the command was not found, or the command's name is misspelt.
     """
     if name.lower() in GENERATION:
         problem = (

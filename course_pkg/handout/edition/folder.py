@@ -32,7 +32,7 @@ class ReleaseFolder:
     def __init__(self, path: Path) -> None:
         """Read the list of files from an earlier release.
 
-        Raises HandoutError if the folder contains files, but no list of an earlier release.
+        Raises HandoutError if the folder contains files, but no list of the files of an earlier release.
         """
         self.path = path
         self._before = self._released_before()

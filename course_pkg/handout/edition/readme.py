@@ -17,8 +17,9 @@ SOME = " This edition has {}."
 def student_readme(text: str, released: Sequence[str], known: Sequence[str], hidden: Collection[str]) -> str:
     """Return the students' README, made from the course's README `text`.
 
-    `known` contains all chapters. The README lists only the chapters in `released`, and no commands in
-    `hidden`. Everything between the comments `<!-- instructors -->` and `<!-- end -->` is removed.
+    `known` contains all chapters of the course. The README lists only the chapters in `released`, and no
+    commands in `hidden`. Everything between the comments `<!-- instructors -->` and `<!-- end -->` is
+    removed.
     """
     kept = INSTRUCTORS.sub("", text)
     some = tuple(released) != tuple(known)

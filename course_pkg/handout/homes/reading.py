@@ -1,9 +1,9 @@
 """Reads a student's work in a child process that has only the rights of this student.
 
-If root runs `course collect`, the child gives up all rights of root before it reads the home folder. The
-child can read only files that the student can read. Therefore, even if a student creates a link, or replaces
-a folder during the reading, the child cannot read other users' private files. If a user without root's rights
-runs `course collect`, the child has the rights of that user.
+If root runs `course collect`, the child process gives up all rights of root before it reads the home folder.
+Then the child process can read only files that the student can read. Therefore, even if a student creates a
+link, or replaces a folder during the reading, the child cannot read other users' private files. If a user
+without root's rights runs `course collect`, the child has the rights of that user.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def become(home: Home) -> None:
 
     Do nothing if this process does not run as root.
 
-    After the change of the user, no process of the owner can trace this process (ptrace(2)). Raises
+    After this process has changed its user, no process of the home's owner can trace it (ptrace(2)). Raises
     PermissionError if this process still has rights of root.
     """
     if os.geteuid() != 0:

@@ -12,7 +12,7 @@ from course_pkg.lab.shell import SHELL
 def settings_for(graph: Graph | None) -> dict[str, object]:
     """Return the settings that put kernels and terminals on `graph`.
 
-    The keys are the names of Jupyter's traits.
+    The keys of the result are the names of Jupyter's traits.
 
     The server and a kernel communicate through sockets that are files (transport "ipc"). If the graph has a
     private network, the server is outside this network, so the server cannot use the kernel's TCP ports.

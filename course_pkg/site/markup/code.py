@@ -13,7 +13,7 @@ from pygments.lexers import get_lexer_by_name
 from pygments.token import Comment, Keyword, Name, Number, Operator, String, _TokenType
 from pygments.util import ClassNotFound
 
-# These kinds of tokens get a colour; a subtype comes before its parent type. The letters are classes in
+# These kinds of tokens get a colour; a subtype comes before its parent type. The letters are CSS classes in
 # site.css.
 COLOURS = (
     (Comment, "c"),

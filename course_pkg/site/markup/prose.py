@@ -22,8 +22,8 @@ NOTEBOOK = re.compile(r"(?P<name>\d\d_\w+)\.ipynb(?P<anchor>#.*)?$")
 class Prose:
     """Renders the Markdown of one page, and adds an anchor to each heading.
 
-    `highlight` converts code and the name of its language into HTML. `figure` converts the address and the
-    description of a figure into HTML. All anchors begin with `prefix`.
+    The function `highlight` converts code and the name of its language into HTML. The function `figure`
+    converts the address and the description of a figure into HTML. All anchors begin with `prefix`.
     """
 
     def __init__(
