@@ -20,7 +20,7 @@ from course_pkg.setup.stamps import locked
 
 LETTERS = "abcdefghjkmnpqrstuvwxyz23456789"  # without letters and digits that look alike
 GROUPS, LENGTH = 3, 4  # 31 ** 12 possible passwords, such as k3fp-wx7d-m9qa
-SCRYPT = {"n": 2**14, "r": 8, "p": 1}  # RFC 7914; one hash takes about 50 ms
+SCRYPT = {"n": 2**14, "r": 8, "p": 1}  # parameters of scrypt (RFC 7914); one hash takes about 50 ms
 
 
 class Passwords:

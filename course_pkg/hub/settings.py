@@ -22,7 +22,7 @@ class Settings:
 
     state: str  # the folder of the hub's data, readable only by the hub
     released: str  # the git repository with the released notebooks
-    proxy: str  # the program of the proxy
+    proxy: str  # the path of the proxy program
     url: str
     hub_port: int
     proxy_port: int

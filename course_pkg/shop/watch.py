@@ -16,7 +16,7 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-# A waiting thread checks after at most this time (s) again whether the camera has sent a message.
+# A waiting thread checks at least once in this time (s) whether the camera is silent.
 POLL = 0.25
 # If an Eye receives no valid frame for this many s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0

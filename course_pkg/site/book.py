@@ -36,7 +36,7 @@ LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
 
 
 def prefix(chapter: Chapter) -> str:
-    """Return the prefix of the anchors of a chapter.
+    """Return the text with which all anchors (HTML ids) of a chapter begin.
 
     All chapters of the book are on one page, so anchors of different chapters need different prefixes.
     """

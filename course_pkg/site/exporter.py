@@ -144,7 +144,7 @@ def _has_a_form(output: Output) -> bool:
 
 
 def packed(states: Sequence[Mapping[str, Plain]]) -> str:
-    """Return the states of a page's panels, in their order.
+    """Return the states of a page's panels, in the order of the panels.
 
     The result is JSON, compressed with zlib, in base64.
     """
@@ -188,7 +188,7 @@ def terminal(text: str) -> str:
 
 
 class Sanitizer:
-    """Removes everything from HTML except text, its structure, links, and pictures with embedded data."""
+    """Removes everything from HTML except text and its structure, links, and pictures with embedded data."""
 
     def __init__(self) -> None:
         self._cleaner = Cleaner(

@@ -118,7 +118,7 @@ class ServiceType:
 def service_type(type_or_name: str | ServiceType | ServiceClass) -> ServiceType:
     """Return the service type for a full name (`std_srvs/SetBool`) or for a generated class.
 
-    If a type on ROS_PACKAGE_PATH is not built, its class is generated from the definition. Raises
+    If a type on ROS_PACKAGE_PATH is not built, the class of the type is generated from the definition. Raises
     UnknownType, or BrokenDefinition for a definition that ROS does not accept.
     """
     if isinstance(type_or_name, ServiceType):

@@ -70,7 +70,7 @@ def _message(head: re.Match[str], below: list[str]) -> Message:
 
 
 def _indented(lines: list[str]) -> Iterator[str]:
-    """Yield the lines of a message: indented lines, empty lines between them, and its call stack."""
+    """Yield the lines of a message: indented lines, empty lines between them, and the call stack."""
     for line in lines:
         if line.strip() and not line.startswith("  ") and line.strip() != _STACK:
             return

@@ -94,7 +94,7 @@ def _colour(kind: _TokenType) -> str:
 
 
 def _runs(coloured: Iterator[tuple[str, str]]) -> Iterator[str]:
-    """Join adjacent tokens of the same colour into one element; white space gets no element."""
+    """Join adjacent tokens of the same colour into one HTML element; white space gets no element."""
     for name, run in groupby(coloured, key=lambda pair: pair[0]):
         text = escape("".join(text for _, text in run), quote=False)
         yield f"<i class={name}>{text}</i>" if name else text
