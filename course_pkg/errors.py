@@ -273,7 +273,7 @@ class InvalidPredictions(PanelError):
 
 
 class NotAChoice(PanelError):
-    """A case of choose() expects an option that does not exist, or the list contains two equal cases."""
+    """A case of choose() expects an option that does not exist, or two cases in the list are equal."""
 
 
 class NotATopic(PanelError):

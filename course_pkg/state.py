@@ -47,7 +47,7 @@ def write_json(path: Path, data: Mapping[str, Any]) -> None:
 
 @contextmanager
 def locked(folder: Path, timeout: float = LOCK) -> Iterator[None]:
-    """Hold the lock of `folder` during the block, so that no other process uses the folder.
+    """Hold the lock of `folder` during the `with` block, so that no other process uses the folder.
 
     The folder is created if it is missing. Raises OSError if the lock cannot be created, or if another
     process holds the lock for `timeout` s. On a file system without locks, the block runs without a lock.

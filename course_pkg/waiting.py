@@ -78,7 +78,7 @@ def at_this_load(seconds: float) -> float:
 
 @contextmanager
 def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 0.0) -> Iterator[None]:
-    """Raise `error` in the block when the block has run for `seconds` s.
+    """Raise `error` in the `with` block when the block has run for `seconds` s.
 
     If `repeat` is not 0, the error is raised again every `repeat` s, for code that may catch the first error.
     This function uses an alarm signal (SIGALRM). The block therefore has to run in the main thread, and must

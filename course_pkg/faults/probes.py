@@ -48,7 +48,7 @@ def _output(stage: Stage) -> Seen:
 
 
 def _cleaned(stage: Stage) -> Seen:
-    """Remove stale registrations of this case's nodes; `rosnode cleanup` does this for all nodes."""
+    """Remove stale registrations of this fault's nodes; `rosnode cleanup` does this for all nodes."""
     try:
         nodes = MasterClient(stage.uri).system_state().nodes
         own = [node for node in nodes if node.startswith(f"{stage.namespace}/")]

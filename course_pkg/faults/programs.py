@@ -1,4 +1,4 @@
-"""The programs that several cases use: the server of /door (`keeper`), and its client (`VISITOR`)."""
+"""The programs that several faults use: the server of /door (`keeper`), and its client (`VISITOR`)."""
 
 from __future__ import annotations
 

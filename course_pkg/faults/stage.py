@@ -234,7 +234,7 @@ class _Resources:
         self._uri = uri
         self._namespace = namespace
         self.folder = Path(tempfile.mkdtemp(prefix="course-lab-"))
-        # If this process is killed, the reaper removes the registrations of killed programs.
+        # If this process is killed, the program reaper.py removes the registrations of killed programs.
         self._reaper = SupervisedProcess(
             [sys.executable, "-I", "-S", str(REAPER), uri, namespace, str(self.folder)], env=os.environ
         )

@@ -38,7 +38,7 @@ class Prefix:
         }
 
     def claim(self) -> None:
-        """Create the folder and mark it.
+        """Create the folder, and mark it as a shared installation.
 
         If the folder cannot be used, raise SetupError and change nothing.
         """

@@ -100,7 +100,7 @@ def _serve(
 
 
 def server_port(ip: str, candidates: Sequence[int]) -> int:
-    """Return the first free port of `candidates` at `ip`; raises PortBusy if there is none."""
+    """Return the first free port of `candidates` at `ip`; raises PortBusy if no port is free."""
     try:
         return free_port(ip, candidates)
     except OSError as error:

@@ -14,8 +14,8 @@ from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.shell import SHELL
 from course_pkg.ros.process.supervised import SupervisedProcess
 
-# The first plug-in gives each notebook its own master and folder. The second plug-in ignores pictures. The
-# third plug-in makes the run fail if a check in a notebook did not pass.
+# The first plug-in gives each notebook its own master and folder. The second plug-in ignores pictures. With
+# the third plug-in, pytest fails if a check in a notebook did not pass.
 NBVAL_PLUGINS = (
     "course_pkg.authoring.private_notebook",
     "course_pkg.authoring.nbval_figures",

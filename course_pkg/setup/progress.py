@@ -38,7 +38,7 @@ class Progress:
 
     @contextmanager
     def step(self, title: str) -> Iterator[None]:
-        """Show the step `title` and its duration during the block, and its result after the block."""
+        """Show the step `title` and its duration during the `with` block, and its result after the block."""
         started = time.monotonic()
         with self._lock:
             self._running[title] = started

@@ -105,7 +105,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        # The stamp is written here so that the next start does not have to call dpkg.
+        # The stamp is written here so that the next start of `course` does not have to call dpkg.
         with suppress(OSError):
             stamps.write(name, state)
         return True

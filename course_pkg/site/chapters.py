@@ -39,7 +39,7 @@ class Chapter(NamedTuple):
 
     @property
     def full_title(self) -> str:
-        """The chapter's number and title, as in a link."""
+        """The chapter's number and title, as the text of a link."""
         return f"{self.number} {self.title}"
 
 

@@ -51,7 +51,7 @@ class ReleaseFolder:
         """Write `files`, remove all other files of an earlier release, and commit the changes.
 
         Raises HandoutError if a file with uncommitted changes would be overwritten, or if the folder cannot
-        be written. In the first case, nothing is changed.
+        be written. If a file would be overwritten, nothing is changed.
         """
         self._refuse_changes_by_hand(files)
         try:

@@ -50,7 +50,7 @@ def enter(files: Sequence[int]) -> None:
 
 
 def entering(files: Sequence[int]) -> list[str]:
-    """Return a prefix for a command line; it runs the command in the namespaces with these file descriptors.
+    """Return a prefix for a command line, which runs the command in the namespaces with these descriptors.
 
     The prefix works as long as this process has the file descriptors open.
     """
