@@ -396,6 +396,8 @@ replace("        self.lock = … count - 1)", """
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)""")
+# %% 10.4 wrong: reads the shelf again after the lock | hint: Two clients got the same number of things
+replace("        return TriggerResponse(success=True, message=str(count - 1))", "        return TriggerResponse(success=True, message=str(self.shelf.read()))")
 # %% 10.4 wrong: reads the shelf only once | hint: New things were put on the shelf
 replace("self.shelf = shelf", "self.shelf, self.count = shelf, shelf.read()")
 replace("            count = self.shelf.read()\n", "            count = self.count\n")

@@ -821,6 +821,8 @@ based_on("with a delay, and output on the screen")
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
 # %% 15.11 wrong: no respawn | hint: roslaunch did not start a node again
 replace(' respawn="true"', "", times=4)
+# %% 15.11 wrong: a long delay | hint: The attribute respawn_delay lets roslaunch wait too long
+replace('name="till" respawn="true"', 'name="till" respawn="true" respawn_delay="10"')
 # %% 15.11 wrong: one node without respawn | hint: roslaunch did not start a node again
 replace('name="till" respawn="true"', 'name="till"')
 # %% 15.11 wrong: no valid XML | hint: roslaunch ended. Type

@@ -217,12 +217,12 @@ def speed_of(robot, default):
         number = float(speed)
     except (KeyError, TypeError, ValueError):
         return default
-    return default if speed is True or number <= 0 else number
+    return default if isinstance(speed, (bool, str)) or number <= 0 else number
 
 # %% 16.3 right: from the cache
 based_on("by an exception")
 replace("speed = rospy … ValueError):", 'speed = rospy.get_param_cached(f"/{robot}/speed")\n    except KeyError:')
-replace("default if speed is True or number <= 0 else number", "speed if type(speed) in (int, float) and speed > 0 else default")
+replace("default if isinstance(speed, (bool, str)) or number <= 0 else number", "speed if type(speed) in (int, float) and speed > 0 else default")
 # %% 16.3 wrong: no default | hint: If the parameter is not set, get_param raises a KeyError
 replace("speed = rospy … return speed", 'return rospy.get_param(f"/{robot}/speed")')
 # %% 16.3 wrong: sets the default | hint: The function has set the parameter
@@ -263,6 +263,9 @@ replace(", default)\n", ", 1.0)\n")
 # %% 16.3 wrong: does not catch what float() raises | hint: float() raises a ValueError for a string that does
 based_on("by an exception")
 replace(", ValueError", "")
+# %% 16.3 wrong: takes a string that contains a number | hint: The value of the parameter was a string, not a number
+based_on("by an exception")
+replace("(bool, str)", "bool")
 # %% 16.3 wrong: takes True for a speed | hint: The value was True, which is an int with the value 1 in Python
 replace("isinstance(speed, bool) or not", "not")
 

@@ -30,6 +30,8 @@ MEETING = 0.01  # A thread waits at most this many s for another thread.
 # The first of many threads waits at most this many s until the other threads have started.
 FIRST_MEETING = 0.3
 FIRST = 2  # This many calls of read() or write() wait for up to FIRST_MEETING s.
+LATE = 7  # With many threads, each seventh read is late.
+LATE_READ = 0.05  # A late read waits at most this many s for a write of another thread.
 
 KERNEL_CODE = (
     SMALL_STACKS
@@ -57,20 +59,29 @@ checked_shop = CheckedShop()
 
 
 class CheckedShelf:
-    """A shelf with `count` things. The kernel has a proxy for the shelf.
+    """A shelf with `count` things. The student's code in the kernel uses the shelf through a proxy object.
 
     Each read and each write waits for a short time, and ends early if another thread reads. Therefore, two
-    threads without a lock read the same number. With a lock, no other thread can read during this time.
+    threads without a lock read the same number.
+
+    With many threads, some reads are late: they wait for a write of another thread, and then return the new
+    number. A thread that reads without the lock, for example after its own sale, gets this new number.
     """
 
     def __init__(self, count: int) -> None:
         self.things: Value = count
         self._reads = 0
+        self._writes = 0
+        self._crowded = False
         self._long_waits = 0
         self._turn = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next calls of read() and write() wait until the other threads have started."""
+        """Let the next calls of read() and write() wait until the other threads have started.
+
+        From now on, some reads are late.
+        """
+        self._crowded = True
         self._long_waits = FIRST
 
     @remote
@@ -79,8 +90,13 @@ class CheckedShelf:
         with self._turn:
             seen = self.things
             self._reads += 1
+            late = self._crowded and self._reads % LATE == 0
             self._turn.notify_all()
             self._meet()
+            if late:
+                so_far = self._writes
+                self._turn.wait_for(lambda: self._writes > so_far, LATE_READ)
+                seen = self.things
         return seen
 
     @remote
@@ -89,6 +105,8 @@ class CheckedShelf:
         with self._turn:
             self._meet()
             self.things = count
+            self._writes += 1
+            self._turn.notify_all()
 
     def _meet(self) -> None:
         so_far = self._reads

@@ -41,6 +41,10 @@ TWICE = (
     "Two handlers read the same number, so one sale was lost. In all calls, hold the same lock "
     "while you read, decide and write."
 )
+REREAD = (
+    "Two clients got the same number of things that are left. Read the shelf only while you hold the lock, "
+    "and calculate the message from this number."
+)
 EMPTIED = 'Sell the things to one client after the other. When the shelf is empty, respond with "sold out".'
 
 
@@ -175,7 +179,7 @@ def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count:
         holds=sorted(sold) == sorted(map(str, range(count))),
         expected="each number of things left, once",
         actual=", ".join(sorted({message for message in sold if sold.count(message) > 1})),
-        hints=TWICE,
+        hints=REREAD,
     )
     context.expect(
         "the shelf contains the number of things that were not sold",
