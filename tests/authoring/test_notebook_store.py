@@ -32,7 +32,7 @@ def write(root: Path, notebook: Notebook, name: str = "05_write_a_server") -> No
 
 
 def test_sync_updates_the_notebooks(root: Path) -> None:
-    """`check` lists a missing notebook, and passes after the sync."""
+    """`course sync --check` reports a missing notebook, and passes after `course sync`."""
     with pytest.raises(AuthoringError, match=r"course sync[\s\S]*notebooks/05_write_a_server.ipynb"):
         sync(check=True, root=root)
     assert sync(root=root) == 0
@@ -75,7 +75,7 @@ def test_an_exercise_that_repairs_a_file_begins_with_the_broken_file(tmp_path: P
 
 
 def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) -> None:
-    """If a cell and its check name different files, the sync fails."""
+    """If an exercise cell and its check use different file names, the sync fails."""
     write(tmp_path, book(*repair("%%writefile elsewhere.txt\nproject(lamp_services)")), "04_define_a_service")
     with pytest.raises(AuthoringError, match=r"exercise-04-4: the check gives students a cell that begins"):
         sync(root=tmp_path)

@@ -66,7 +66,7 @@ def test_a_plot_is_drawn_anew_after_a_change(change: str) -> None:
 
 
 def test_only_a_measured_picture_of_a_panel_stays() -> None:
-    """The store replaces the picture of a prediction, but not the picture of a recording."""
+    """A new run replaces the stored picture of a prediction, but not the stored picture of a recording."""
     for panel, stays in (("prediction", False), ("turtles", True)):
         first = stored(executed("<svg>1</svg>", panel=panel), book())
         first["cells"][0]["outputs"][0]["data"][SVG] = "<svg>old</svg>"

@@ -130,12 +130,12 @@ def panel_main() -> int:
     return int(ratio > PANEL_BAR)
 
 
-# robust: makes 200 payments with the solution of 12.3, and counts the errors. The node of the cash register
-# (the till) causes a fault at every third payment. The till is a separate process; the benchmark stops, kills
-# and restarts it. The till writes each payment to a file before it sends its response. These results are
-# errors: a missing payment, a payment that was made twice, a receipt without a payment, a missing receipt,
-# and a refusal that pay() does not report. A payment that has not ended 2 s after its time limit counts as a
-# hang.
+# robust: makes 200 payments with the solution of exercise 12.3, and counts the errors. The node of the cash
+# register (the till) causes a fault at every third payment. The till is a separate process; the benchmark
+# stops, kills and restarts it. The till writes each payment to a file before it sends its response. These
+# results are errors: a missing payment, a payment that was made twice, a receipt without a payment, a missing
+# receipt, and a refusal that pay() does not report. A payment that has not ended 2 s after its time limit
+# counts as a hang.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
 DEADLINE = 15.0  # A payment may take this many seconds. The restart of a killed till needs about 1 s.
@@ -184,7 +184,7 @@ def robust_main() -> int:
 
 
 def reference() -> Callable[[str, int, float], int | None]:
-    """Return the function pay() of the chapter's solution."""
+    """Return the function pay() from the solution of chapter 12."""
     cells = json.loads(SOLUTION.read_text("utf-8"))["cells"]
     names: dict[str, Any] = {
         "rospy": rospy,
@@ -420,14 +420,14 @@ def recorder_main() -> int:
 
 
 def started(way: str, core: int) -> subprocess.Popen[bytes]:
-    """Start a server; if `way` is "recorded", the server records its calls."""
+    """Start a server; if the parameter `way` is "recorded", the server records its calls."""
     server = subprocess.Popen([sys.executable, "-c", SERVER, way, str(core), "0"])
     rospy.wait_for_service(way, timeout=20)
     return server
 
 
 def figures(way: str, core: int, calls: int) -> Figures:
-    """Run one client, and return its durations in s."""
+    """Run one client, and return the measured duration of each action in s."""
     command = [sys.executable, "-c", CLIENT, way, str(core), str(calls)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     found: Figures = json.loads(done.stdout.splitlines()[-1])
@@ -435,7 +435,7 @@ def figures(way: str, core: int, calls: int) -> Figures:
 
 
 def shown(runs: list[tuple[Figures, Figures]]) -> float:
-    """Print the shortest durations; return the ratio (recorded / bare) for calls on new connections."""
+    """Print the shortest durations; return the duration ratio (recorded / bare) for new connections."""
     ratios = []
     for name in runs[0][0]:
         bare, recorded = (1e6 * min(run[end][name] for run in runs) for end in (0, 1))
@@ -446,7 +446,7 @@ def shown(runs: list[tuple[Figures, Figures]]) -> float:
 
 
 def event() -> float:
-    """Return the duration in µs that the recorder needs for an event."""
+    """Return the time in µs that the recorder needs to record an event."""
     recorder = Recorder()
     rounds = []
     for _ in range(50):

@@ -290,7 +290,7 @@ def call(number: int, at: float) -> list[Event]:
 
 
 # topic: measures the CPU time of a topic panel, the number of its updates, and the accuracy of its rate. A
-# real kernel runs the panel. Instead of a page, a client reads the kernel's messages.
+# real kernel runs the panel. The benchmark opens no page; a client reads the kernel's messages.
 
 TOPIC_WATCH = 10.0  # s
 TOPIC_BAR = 5.0  # The panel may use at most this percentage of a core at 100 Hz.

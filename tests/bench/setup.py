@@ -201,7 +201,7 @@ def cpp_measure() -> tuple[list[float], float]:
         seconds = list(built(Path(folder)))
         from course_pkg.workspace.cpp_support import (
             compile_command,
-        )  # The import is here because `fresh` runs without the course's libraries.
+        )  # This import is inside the function because `fresh` runs without the course's libraries.
 
         source = f"{folder}/src/cpp_services/src/geometry_server.cpp"
         return seconds, timed(compile_command(source, f"{folder}/alone"), folder)

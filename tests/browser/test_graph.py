@@ -189,7 +189,7 @@ def test_a_recording_of_the_graph_is_played_without_a_kernel(
 def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
     """The recording pauses while the panel is not visible on the page.
 
-    With reduced motion, the page shows one picture per second.
+    If the reader's system asks for reduced motion, the page shows one picture per second.
     """
     page.emulate_media(reduced_motion="reduce")
     page.goto(save(played(widget), tmp_path / "page.html"))

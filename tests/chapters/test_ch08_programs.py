@@ -22,7 +22,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @pytest.fixture
 def adder() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg add_two_ints_server` until its service is available."""
+    """Start `rosrun course_pkg add_two_ints_server`, and wait until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "add_two_ints_server"]) as process:
         process.wait_for_service("/add_two_ints")
         yield process
@@ -82,7 +82,7 @@ def test_client_of_another_definition_with_wrong_arguments() -> None:
 
 @pytest.fixture
 def on_off() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg on_off_server` until its service is available."""
+    """Start `rosrun course_pkg on_off_server`, and wait until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "on_off_server"]) as process:
         process.wait_for_service("/on_off")
         yield process
@@ -142,7 +142,7 @@ def test_on_off_client_without_a_master() -> None:
 
 @pytest.fixture
 def switch(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg switch` until its service is available."""
+    """Start `rosrun course_pkg switch`, and wait until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "switch"]) as process:
         process.wait_for_service("/switch/reset")
         yield process

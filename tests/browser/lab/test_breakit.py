@@ -24,7 +24,7 @@ LABEL = "Break it"
 
 
 def number(name: str) -> int:
-    """Return the number of the case with the fault `name`."""
+    """Each case of the panel has one fault; return the number of the case with the fault `name`."""
     return next(case.number for case in cases() if case.fault.name == name)
 
 
@@ -129,7 +129,7 @@ def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) ->
     ):
         shown = page.locator(".jp-OutputArea-output", has_text="http://localhost").first.inner_text()
         master = MasterClient(shown.strip().strip("'"))
-        # If a fault of another panel is active, the list includes the nodes of this fault.
+        # If another panel has caused a fault, `before` contains the nodes of this fault.
         before = master.system_state().nodes
         begin(panel(page, LABEL), "stale")
         assert master.system_state().nodes != before

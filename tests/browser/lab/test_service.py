@@ -256,7 +256,7 @@ def test_a_reader_runs_chapter_05_and_calls_the_server_from_the_form(page: Page)
 
 
 def _write_nothing(route: Route) -> None:
-    """Do not let the page write to the checkout's solution."""
+    """Prevent the page from writing to the solution in the checkout."""
     if route.request.method == "PUT":
         route.abort()
     else:

@@ -98,7 +98,7 @@ def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
 
 
 def test_what_is_long_is_folded(page: Page, tmp_path: Path) -> None:
-    """A long field is shown with its beginning and its length."""
+    """For a long field, the view shows only the beginning of the value and its length."""
     wire = show(page, tmp_path, WireView("/nobody"))
     expect(wire.locator("[aria-current]")).to_contain_text("No node provides it")
     expect(wire.get_by_text("unavailable")).to_be_visible()
