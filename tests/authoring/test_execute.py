@@ -80,7 +80,7 @@ def test_a_figure_is_a_stable_svg_that_nbval_does_not_compare(tmp_path: Path) ->
 
 
 def test_a_cell_that_stops_the_run_is_named(tmp_path: Path) -> None:
-    """The error message contains the id of the cell that failed, and the stored file does not change."""
+    """If a cell fails, the error message contains its id, and the stored notebook does not change."""
     path = solution(tmp_path, code("1 / 0", id="boom"))
     before = path.read_text()
     with pytest.raises(AuthoringError, match="cell boom stopped the run with ZeroDivisionError"):
@@ -128,7 +128,7 @@ run_all({"05_wait": book(code(cell))}, lambda *_: None)
 
 
 def test_an_interrupt_ends_the_kernels(tmp_path: Path) -> None:
-    """After Ctrl-C, the command and its kernel exit."""
+    """After Ctrl-C, the program that executes the notebooks and the kernel exit."""
     pid_file = tmp_path / "pid"
     with subprocess.Popen(
         [sys.executable, "-c", INTERRUPTED, str(pid_file)], stderr=subprocess.DEVNULL

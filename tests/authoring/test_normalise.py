@@ -65,7 +65,7 @@ def test_a_readable_traceback_stays() -> None:
 
 
 def test_another_traceback_is_reduced_to_its_last_line() -> None:
-    """`tidy` reduces a traceback that contains file paths to its error message."""
+    """If a traceback contains file paths, `tidy` keeps only the line with the error message."""
     error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["File /home/me/x.py", "E: v"]}
     cell = code("fail()", outputs=[error], execution_count=1)
     tidy(book(cell))

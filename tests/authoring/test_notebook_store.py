@@ -82,7 +82,7 @@ def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) ->
 
 
 def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
-    """`check` reports an edited notebook, and a sync restores the notebook."""
+    """`course sync --check` reports an edited notebook, and `course sync` restores the notebook."""
     sync(root=root)
     path = root / "notebooks" / "05_write_a_server.ipynb"
     path.write_text(path.read_text() + "\n")
@@ -93,7 +93,7 @@ def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
 
 
 def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
-    """After a chapter is renamed, a sync deletes the notebook with the old name."""
+    """After a chapter is renamed, `course sync` deletes the notebook with the old name."""
     sync(root=root)
     (root / "notebooks" / "05_old_name.ipynb").write_text("{}")
     with pytest.raises(AuthoringError, match="05_old_name"):
@@ -131,7 +131,7 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
     ],
 )
 def test_each_problem_of_a_solution_is_reported(tmp_path: Path, cells: list[Cell], words: str) -> None:
-    """The error message contains the notebook's name and the problem."""
+    """For a wrong solution notebook, the error message contains the notebook's name and the problem."""
     write(tmp_path, book(*cells))
     with pytest.raises(AuthoringError, match=rf"05_write_a_server[^\n]*{words}"):
         sync(root=tmp_path)

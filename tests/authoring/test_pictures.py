@@ -1,4 +1,4 @@
-"""When a solution is stored, each panel gets a picture."""
+"""When a solution notebook is stored, the output of each panel gets a picture."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return `notebook` as the store writes it; `before` is the notebook that is already stored."""
+    """Return `notebook` as NotebookStore writes it; `before` is the notebook that was stored earlier."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)

@@ -212,7 +212,7 @@ class Street:
         self._keeper.start()
 
     def payment(self, pay: Callable[..., int | None], cents: int, fault: str, dice: random.Random) -> str:
-        """Make a payment while the till causes `fault`.
+        """Make a payment while the till causes the fault `fault`.
 
         Return "right", "hang", or a description of the error.
         """

@@ -93,7 +93,7 @@ def test_failed_call_gets_its_error_message(line: websocket.WebSocket, geometry:
 
 
 def test_message_that_is_not_a_call_gets_a_status(line: websocket.WebSocket) -> None:
-    """The bridge replies to any other message with a status of the level "error"."""
+    """If a message is not a service call, the bridge replies with a status of the level "error"."""
     for message in ("no JSON", "[]", "7", {"op": "publish"}, {"op": "call_service"}):
         answer = said(line, message)
         assert (answer["op"], answer["level"]) == ("status", "error")

@@ -39,7 +39,7 @@ class Switch:
 
 @pytest.fixture
 def notebook(master: PrivateMaster, tmp_path: Path) -> Iterator[NotebookKernel]:
-    """Return a kernel that runs a node and has its own record."""
+    """Return a kernel that runs a node and has its own record of results."""
     with NotebookKernel({"COURSE_STATE": str(tmp_path)}) as kernel:
         assert not kernel.run(SETUP, "setup").ename
         yield kernel

@@ -84,7 +84,7 @@ def test_a_damaged_file_is_kept_and_named(record: StudentRecord, content: str) -
 
 
 def test_second_damaged_file_replaces_no_file(record: StudentRecord) -> None:
-    """Each damaged file gets a new name."""
+    """Each damaged file gets a name that no other damaged file has."""
     record.folder.mkdir(parents=True)
     path = record.folder / "05.1.json"
     path.write_text("first")

@@ -12,7 +12,7 @@ from course_pkg.ros.process.supervisor import descendants
 
 @dataclass(frozen=True)
 class Surroundings:
-    """The state at one moment, for the master at ROS_MASTER_URI."""
+    """The state of the machine at one moment, with the ROS graph of the master at ROS_MASTER_URI."""
 
     graph: Snapshot = field(default_factory=look)
     processes: frozenset[int] = field(default_factory=lambda: frozenset(descendants(os.getpid())))

@@ -22,7 +22,7 @@ BUILT = [each for row in ROWS for each in row.shown if isinstance(each, Builds)]
 
 
 def _params() -> Iterator[ParameterSet]:
-    """Yield all faults; the faults after the first four faults of a section are slow tests."""
+    """Yield all faults; in each section, all faults except the first four are marked as slow tests."""
     for section in COUNTS:
         rows = [row for row in ROWS if row.section == section]
         shown = [each for row in rows for each in row.shown if isinstance(each, Shows)]

@@ -131,7 +131,7 @@ def test_reports_from_records(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"student": "s01"}', '"x"'])
 def test_invalid_record(tmp_path: Path, content: str) -> None:
-    """The error message contains the file name, but not the student's name."""
+    """For an invalid record, the error message contains the file name, but not the student's name."""
     path = record_path(tmp_path, "s01", "05")
     path.parent.mkdir(parents=True)
     path.write_text(content)
@@ -141,7 +141,7 @@ def test_invalid_record(tmp_path: Path, content: str) -> None:
 
 
 def test_gradescope(tmp_path: Path) -> None:
-    """The file has Gradescope's format."""
+    """The file gradescope.csv has the format that Gradescope imports."""
     write_reports(_two(), tmp_path)
     results = json.loads((tmp_path / "gradescope/s01/results.json").read_text())
     assert results["score"] == 12.1
@@ -158,7 +158,7 @@ def test_gradescope(tmp_path: Path) -> None:
 
 
 def test_canvas(tmp_path: Path) -> None:
-    """The file has Canvas's format, and the cell of a missing submission is empty."""
+    """The file canvas.csv has Canvas's format, and the cell of a missing submission is empty."""
     canvas = replace(
         _two()[0], student="lastfirst_4711", origin="lastfirst_LATE_4711_99_05_write_a_server.ipynb"
     )
@@ -237,7 +237,7 @@ def test_the_class_page(tmp_path: Path) -> None:
 
 
 def test_what_was_asked_for_counts_as_possible(tmp_path: Path) -> None:
-    """The totals include a chapter that a student did not hand in."""
+    """A student's total of possible points includes a chapter that the student did not hand in."""
     five, six = (Grade("s01", each, (report(f"{each}.1"),)) for each in ("05", "06"))
     gone = replace(five, student="s03", absent=True)
     asked = Asked(
@@ -285,7 +285,7 @@ def test_empty_class_and_files_without_a_student(tmp_path: Path) -> None:
 
 
 def test_students_who_need_attention() -> None:
-    """The list contains a student with a problem or without points, but not a late student."""
+    """The list of students who need help contains students with a problem or without points."""
     empty = Grade("s05", "05", (report("05.1", Verdict.FAILED),))
     book = Book([*_two(), refused("s03"), refused("s04", "06"), empty])
     assert attention(book, "s01") == []
@@ -407,7 +407,7 @@ def test_reports_print_and_log_nothing(
 
 
 def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
-    """The error message contains the name of the report that could not be written."""
+    """If a report cannot be written, the error message contains the name of the report."""
     (tmp_path / "out").write_text("")
     with pytest.raises(GradingError, match="No grade is lost"):
         write_reports(class_of(1), tmp_path / "out")

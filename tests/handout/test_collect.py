@@ -221,7 +221,7 @@ def test_pipes_large_files_and_large_packages_are_left_out(
 
 
 def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a home folder does not respond within the time limit, the home is reported."""
+    """If a home folder does not respond within the time limit, the folder is reported."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: signal.pause())
     [home] = homes_in(homes)
@@ -310,7 +310,7 @@ def test_a_list_of_students(
     ],
 )
 def test_a_list_that_cannot_be_used_is_refused(text: str, said: str, tmp_path: Path) -> None:
-    """The error message contains the line number, but no student's name."""
+    """For a wrong list, the error message contains the line number, but no student's name."""
     path = tmp_path / "students.csv"
     path.write_text(text, "utf-8", "surrogateescape")
     with pytest.raises(HandoutError, match=said):

@@ -32,8 +32,8 @@ def hub(
 ) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """Run a hub during the `with` block; yield its process and address after it has responded.
 
-    `before` is a command prefix. Another test may start a hub at the same time, so the port is not one of the
-    usual ports.
+    `before` is a command that runs the hub's command, such as `unshare`. Another test may start a hub at the
+    same time, so the port is not one of the usual ports.
     """
     port = [] if "--port" in options else ["--port", "0"]
     with running(*arguments(folder, students), *port, *options, before=before) as process:

@@ -37,7 +37,7 @@ UNABLE = {"is not Python": "this is not Python\n", "raises at its start": "raise
 
 
 def credit_main() -> int:
-    """Run the answers and print the answers with points. Return how many have wrong points."""
+    """Print the answers that get partial or wrong points; return the number with wrong points."""
     words = sys.argv[1:]
     few = "few" in words
     asked = tuple(word for word in words if word != "few") or ("",)

@@ -41,7 +41,7 @@ Rule = Callable[[ast.Module, random.Random], None]
 
 
 def in_style(source: str, style: Sequence[Rule], draw: random.Random) -> str:
-    """Return a program with the same behaviour that follows the rules of a style."""
+    """Rewrite a program by the rules of a style; the behaviour of the program does not change."""
     magic, module = _parsed(source)
     for rule in style:
         rule(module, draw)

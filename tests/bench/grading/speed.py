@@ -97,7 +97,7 @@ def speed_grade(submissions: Path, out: Path, validate: str) -> None:
 def many(here: Path, few: float, count: int) -> None:
     """Grade `count` submissions.
 
-    Print the throughput and the memory.
+    Grade many submissions, and print the throughput and the memory usage.
     """
     handed_in(here / "many", count)
     with watched() as seen:

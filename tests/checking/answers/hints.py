@@ -56,7 +56,7 @@ def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
 
 
 def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
-    """Return the pieces of the only hint that contains `text`.
+    """Return the constant strings (`pieces`) of the only hint that contains `text`.
 
     If several hints contain `text`, return the hint that is equal to `text`. If there is no such hint, return
     an empty set.

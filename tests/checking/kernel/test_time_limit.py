@@ -92,7 +92,7 @@ STUBBORN = pytest.mark.parametrize(
 
 @STUBBORN
 def test_limit_ends_it(function: Callable[[], None]) -> None:
-    """Each function ends at its time limit, and no function still holds the lock."""
+    """Each function ends at its time limit, and the lock is free afterwards."""
     started = time.monotonic()
     with pytest.raises(TimesUp):
         TimeLimit(LIMIT).call(function)

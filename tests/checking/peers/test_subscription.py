@@ -140,7 +140,7 @@ def test_published_waits_for_the_connection(check: Kernel, student: Kernel) -> N
 
 
 def test_late_subscription_gets_only_the_latched_message(check: Kernel, student: Kernel) -> None:
-    """A late subscription receives only the latched message."""
+    """A subscription that starts after the messages receives only the latched message."""
     student.run(
         "p = rospy.Publisher('/kept', UInt32, queue_size=10, latch=True); p.publish(1); p.publish(2)\n"
         "q = rospy.Publisher('/lost', UInt32, queue_size=10); q.publish(1)"
@@ -166,7 +166,7 @@ def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) ->
 
 
 def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: Kernel) -> None:
-    """A late subscriber receives every message, and `sent` then contains the time of each message."""
+    """Messages that a check publishes wait for a subscriber, and then arrive in order."""
     check.run("p = publish('/few', UInt32, [{'data': n} for n in (3, 1, 2)])")
     assert check.run("result = [p.has_subscriber(0.1), p.finish(0.1), p.sent]") == [False, False, []]
     student.run("subscription = node.subscribe('/few', UInt32)")

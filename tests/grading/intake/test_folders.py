@@ -61,7 +61,7 @@ def test_a_link_to_a_folder_is_not_followed(tmp_path: Path) -> None:
 
 
 def test_the_reports_are_not_submissions(tmp_path: Path) -> None:
-    """The folder of --out is ignored."""
+    """If the folder of `--out` is among the submissions, the folder is ignored."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "grades/feedback/s01.html": b"x"}, "s02/out")
     assert list(_found(source, source / "grades")) == ["s01", "s02"]
     assert list(_found(source)) == ["grades", "s01", "s02"]

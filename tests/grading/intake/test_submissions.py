@@ -441,7 +441,7 @@ def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content
 
 
 def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
-    """A file in a student's folder does not count for another student, whatever its name is."""
+    """A file in a student's folder never counts for another student who is named in the file's path."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
         "submission_metadata.yml": GRADESCOPE,
@@ -470,7 +470,7 @@ def test_nothing_is_in_an_empty_folder(tmp_path: Path) -> None:
 
 
 def test_outputs_are_not_kept_in_memory(tmp_path: Path, five: bytes) -> None:
-    """The submissions are stored without outputs."""
+    """The submissions in memory contain no outputs of cells."""
     notebook = json.loads(five)
     for cell in notebook["cells"]:
         if cell["cell_type"] == "code":

@@ -1,4 +1,4 @@
-"""Tests that an answer contains no nbval markers and no cell magics."""
+"""Tests of the function that removes nbval markers and cell magics from an answer."""
 
 from __future__ import annotations
 

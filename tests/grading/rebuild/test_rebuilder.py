@@ -65,7 +65,7 @@ def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
 
 
 def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
-    """Insert a student's own cells; if `shift` is 1, they are directly below the cell with the id `name`."""
+    """Insert a student's own cells below the cell with the id `name`, or above it if `shift` is 0."""
     place = _place(cells, name) + shift
     cells[place:place] = [code(source, id=f"own-{place}-{number}") for number, source in enumerate(sources)]
 
@@ -195,7 +195,7 @@ def test_last_of_several_answers_is_used() -> None:
 
 
 def test_identical_copy_leads_to_no_note() -> None:
-    """An identical, empty or blank copy of an answer leads to no note."""
+    """A second cell with the same answer, without code, or with the blank exercise leads to no note."""
     for source in (ANSWER, "", BLANK):
         made = _rebuilt(_student(lambda cells, source=source: _copied(cells, D, source), d=ANSWER))
         assert (made.answers["05.1"], made.notes) == (ANSWER, ())
@@ -278,7 +278,7 @@ def test_an_answer_of_absurd_length() -> None:
 
 
 def test_id_decides_between_different_metadata() -> None:
-    """If the id and the metadata of a cell differ, the id selects the exercise."""
+    """If the id and the metadata of a cell belong to different exercises, the id selects the exercise."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)].update(metadata={"course": {"exercise": "05.2"}}, source=ANSWER)
@@ -303,7 +303,7 @@ def test_tags_and_metadata_of_the_student_stay_out() -> None:
 
 
 def test_markers_and_magics_are_removed() -> None:
-    """Markers and magics are removed, and each removal leads to a note."""
+    """Markers of nbval and cell magics in answers are removed, and each removal leads to a note."""
     made = _rebuilt(_student(d="%%script true\n# NBVAL_SKIP\n" + ANSWER))
     assert made.answers["05.1"] == "# %%script has no effect here\n# (NBVAL_SKIP)\n" + ANSWER
     assert len(made.notes) == 2

@@ -36,7 +36,7 @@ def _matched(origins: Origins, roster: tuple[Person, ...] = ROSTER) -> ClassList
     ],
 )
 def test_who_is_found(student: str, origin: str) -> None:
-    """A folder's name can be any field of the student in the roster, or a name with a platform's number."""
+    """The name of a folder is any field of the student in the roster, or a name with a platform's number."""
     found = _matched({student: [origin]})
     assert found.people[student].line == JANE.line
     assert (found.found, found.strangers, found.unclear) == (1, (), {})
