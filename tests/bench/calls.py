@@ -138,7 +138,7 @@ def panel_main() -> int:
 # counts as a hang.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
-DEADLINE = 15.0  # A payment may take this many seconds. The restart of a killed till needs about 1 s.
+DEADLINE = 15.0  # A payment must end within this many seconds. The restart of a killed till needs about 1 s.
 GRACE = 2.0  # A payment that takes this many seconds more than DEADLINE counts as a hang.
 IN_THE_TILL = (
     "dies before it charges",
@@ -233,7 +233,7 @@ class Street:
         return verdict
 
     def close(self) -> None:
-        """Stop the till and the thread that restarts it."""
+        """Stop the till (the node of the cash register) and the thread that restarts it."""
         self._over.set()
         self._keeper.join(30)
         self._till.stop()
@@ -288,7 +288,7 @@ class Street:
 
 
 def books(folder: Path) -> list[dict[str, Any]]:
-    """Return all complete payments in the till's file."""
+    """Return all complete payments in the file that the till (the node of the cash register) writes."""
     path = folder / "books"
     lines = path.read_text("utf-8").splitlines() if path.exists() else []
     return [json.loads(line) for line in lines if line.endswith("}")]

@@ -55,8 +55,8 @@ NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
 RATE = 5  # Each topic has this rate in Hz.
 
-# This program is a node. Its arguments name the topics that it publishes, and the topics to which it
-# subscribes.
+# This program is a node. The arguments are the topics that the node publishes, and the topics to which the
+# node subscribes.
 SPEAKER = """
 import sys
 import rospy

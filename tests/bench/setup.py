@@ -173,7 +173,7 @@ def imports_main() -> None:
 
 
 # cpp: prints the duration of the builds of chapter 13 in a new workspace, and of the compilation of one file.
-# The files and the commands come from the cells of the solution.
+# The benchmark uses the files and the commands in the cells of the solution.
 
 SOLUTION = next((Path(__file__).parents[2] / "solutions").glob("13_*.ipynb"))
 CPP_BAR = 15.0  # s

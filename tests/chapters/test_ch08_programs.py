@@ -119,7 +119,7 @@ def test_on_off_client_sends_either_number(on_off: NodeProcess) -> None:
 
 
 def test_on_off_client_takes_no_arguments() -> None:
-    """If the client gets an argument, it prints its usage, and its exit status is 2."""
+    """If the client gets an argument, the client prints its usage and exits with status 2."""
     done = program("on_off_client", "1")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: on_off_client")

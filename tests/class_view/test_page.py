@@ -1,4 +1,4 @@
-"""Tests of the page in a browser: it updates by itself, hides names, and is accessible."""
+"""Tests of the page in a browser: the page updates without a reload, hides names, and is accessible."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ HINTS = ("That is width + length. An area is a product.", f"Return a response. {
 def opened(
     browser: Browser, url: str, width: int = 1280, colours: Colours = "light"
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page with its token, and wait until it shows its data."""
+    """Open the page with the token in the URL, and wait until the page shows its data."""
     with page_at(browser, f"{url}/?token={TEACHER}", width, colours) as (page, words):
         expect(page.get_by_role("status")).to_have_text("Live")
         yield page, words

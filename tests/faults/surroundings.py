@@ -20,7 +20,7 @@ class Surroundings:
     environment: dict[str, str] = field(default_factory=lambda: dict(os.environ))
 
     def left_behind(self) -> dict[str, object]:
-        """Return the differences between this state and the current state.
+        """Return the differences between the stored state and the current state.
 
         The function ignores new child processes of a process that already existed.
         """

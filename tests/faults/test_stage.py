@@ -65,7 +65,7 @@ def test_a_case_that_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
 
 
 def test_a_stage_needs_a_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master, a stage raises MasterUnreachable."""
+    """Without a master, the class Stage raises MasterUnreachable."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with pytest.raises(MasterUnreachable, match="No ROS master"):
         Stage(named("stale"))

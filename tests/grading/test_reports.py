@@ -141,7 +141,7 @@ def test_invalid_record(tmp_path: Path, content: str) -> None:
 
 
 def test_gradescope(tmp_path: Path) -> None:
-    """The file gradescope.csv has the format that Gradescope imports."""
+    """The file results.json has the format that Gradescope imports."""
     write_reports(_two(), tmp_path)
     results = json.loads((tmp_path / "gradescope/s01/results.json").read_text())
     assert results["score"] == 12.1
@@ -175,7 +175,7 @@ def test_canvas(tmp_path: Path) -> None:
 
 
 def test_moodle(tmp_path: Path) -> None:
-    """The file has Moodle's format, and a student may be identified by user name, address or name."""
+    """The file moodle.csv has Moodle's format; a user name, an address or a name identifies a student."""
     five = _two()[2]
     moodle = replace(five, student="Full Name_12", origin="Full Name_12_assignsubmission_file_/05.ipynb")
     write_reports([five, replace(five, student="a@b.example"), moodle], tmp_path)
@@ -267,7 +267,7 @@ def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
 
 
 def test_failed_assertion_without_a_hint_is_counted(tmp_path: Path) -> None:
-    """The class page lists a failed assertion even if it has no hint."""
+    """The class page also lists failed assertions that have no hint."""
     failed = report("05.1", Verdict.FAILED)
     plain = replace(failed, assertions=tuple(replace(rule, hint="") for rule in failed.assertions))
     write_reports([Grade("s01", "05", (plain,))], tmp_path)

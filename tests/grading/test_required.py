@@ -26,7 +26,7 @@ def checkout(tmp_path: Path) -> Path:
 
 
 def test_everything_is_there(checkout: Path) -> None:
-    """With all files, grading can start."""
+    """If all files exist, grading can start."""
     require_references(root=checkout)
 
 

@@ -146,7 +146,7 @@ def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Pat
 
 @pytest.mark.skipif(not ROOT, reason="only root can read with another user's rights")
 def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> None:
-    """Root reads only files that the student may read."""
+    """Root reads only files that the student has permission to read."""
     anna = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     ben = add_home(homes, "ben", {"notebooks/06_write_a_client.ipynb": b"2"})
     secret = ben / "ros-course" / "notebooks" / NOTEBOOK
@@ -168,7 +168,7 @@ def home_of(homes: Path, student: str) -> Home:
 
 @pytest.mark.parametrize("place", ["ros-course", "ros-course/notebooks", f"ros-course/notebooks/{NOTEBOOK}"])
 def test_no_link_is_followed(homes: Path, place: str) -> None:
-    """A link in place of a folder or a notebook is reported, but not followed."""
+    """If a link is in the place of a folder or a notebook, the link is reported, but not followed."""
     add_home(homes, "other", {f"notebooks/{NOTEBOOK}": b"secret"})
     link = homes / "anna" / place
     link.parent.mkdir(parents=True)

@@ -121,7 +121,7 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
         ("course_pkg/chapters/ch05_write_a_server/answers/first.py", False),
         ("course_pkg/chapters/ch05_write_a_server/fixtures.py", False),
         ("solutions/05_write_a_server.ipynb", False),
-        # An author may have changed these files, so the release creates them again from the solutions.
+        # The release creates these files again from the solutions, because an author can have changed them.
         ("notebooks/05_write_a_server.ipynb", False),
         ("roster.csv", False),
         ("grades/class.html", False),
@@ -129,12 +129,12 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
     ],
 )
 def test_which_files_are_copied(name: str, released: bool) -> None:
-    """A file is released only if it belongs to the package and contains no answers."""
+    """The release contains only files that belong to the package and contain no answers."""
     assert is_released(name) is released
 
 
 def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
-    """Without git's data, the release writes the same edition."""
+    """Without a git repository, the release finds the same files, and ignores __pycache__."""
     for name in git(ROOT, "ls-files", "--cached", "--others", "--exclude-standard").splitlines():
         if (ROOT / name).is_file() and not name.startswith("tests/"):
             (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)

@@ -141,7 +141,7 @@ def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) ->
 def test_a_saved_lab_shows_the_last_case(
     page: Page, tmp_path: Path, master: PrivateMaster, theme: str
 ) -> None:
-    """A saved page shows the last case, and all buttons are disabled."""
+    """A saved page shows the last case that the student opened, and all buttons are disabled."""
     assert master.uri
     widget = BreakIt("stopped", "returns_none", store=CaseStore(tmp_path / "cases.json"))
     widget._model.open(number("returns_none"))

@@ -59,7 +59,7 @@ def test_a_persistent_client_stays_connected(node: Node) -> None:
 
 
 def test_idle_connections_are_closed(node: Node) -> None:
-    """When the server stops, it also closes idle connections."""
+    """When the server stops, the server also closes idle connections."""
     with ScriptedServer(node, "/p", geometry, lambda _: {}):
         proxy = rospy.ServiceProxy("/p", geometry, persistent=True)
         proxy(1, 2, 3)

@@ -93,7 +93,7 @@ def test_a_wait_ends_when_its_time_is_over(check: Kernel) -> None:
 
 
 def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
-    """The report says that the topic has no publisher, and contains a similar topic name."""
+    """If a topic has no publisher, the report says this, and contains a similar topic name."""
     assert check.run("result = broken(subscribe('/joint_states'), within=0.1)") == [
         "/joint_states is published as std_msgs/UInt32",
         "no publisher",
@@ -109,7 +109,7 @@ def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
 
 @pytest.mark.parametrize("publish", ["", "p.publish(1.5)"])
 def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) -> None:
-    """The report contains the wrong type, even before the first message."""
+    """If a publisher has the wrong message type, the report contains this type before the first message."""
     student.run(f"p = rospy.Publisher('/level', Float64, queue_size=10, latch=True); {publish}")
     _, seen, hint = check.run("result = broken(subscribe('/level'))")
     assert seen == "std_msgs/Float64"

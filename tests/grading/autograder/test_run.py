@@ -76,7 +76,7 @@ def test_a_zip_inside_the_submission_has_a_message(tmp_path: Path) -> None:
 
 
 def test_links_and_pipes_are_not_read(tmp_path: Path) -> None:
-    """The program refuses a link, and a pipe does not block the run."""
+    """The program refuses links in a submission, and a named pipe does not block the run."""
     (tmp_path / "submission").mkdir()
     (tmp_path / "secret.ipynb").write_bytes(blank())
     (tmp_path / "submission" / NAMES["05"]).symlink_to(tmp_path / "secret.ipynb")

@@ -106,7 +106,7 @@ def test_layouts(tmp_path: Path, five: bytes, six: bytes) -> None:
 
 @pytest.mark.parametrize("name", ["class.zip", "other.zip"])
 def test_a_zip_of_the_folder(tmp_path: Path, five: bytes, name: str) -> None:
-    """In a zip, the students' folders may be inside another folder."""
+    """In a zip, the students' folders can be inside another folder."""
     files = {f"class/{student}/{FIVE}": five for student in ("s01", "s02")}
     assert _kept(submissions(zipped(tmp_path / name, files))) == [("s01", "05"), ("s02", "05")]
 
@@ -336,7 +336,7 @@ def test_pipe_is_not_opened(tmp_path: Path) -> None:
 
 
 def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The error message asks the instructor to change the permissions of the file."""
+    """For a file without read permission, the error message asks the instructor to change the permissions."""
 
     def refuse(*_: object) -> int:
         raise PermissionError(13, "Permission denied")
@@ -492,7 +492,7 @@ def test_one_notebook(tmp_path: Path, five: bytes) -> None:
 
 
 def test_names_of_any_letters(tmp_path: Path, five: bytes) -> None:
-    """Student names may contain the letters of all languages."""
+    """Student names can contain the letters of all languages."""
     names = ["Größe", "a\u202eb", "x" * 200, "名前", "\udcff"]
     found = submissions(folder(tmp_path, {f"{name}/{FIVE}": five for name in names}))
     assert len({each.student for each in found}) == len(names)

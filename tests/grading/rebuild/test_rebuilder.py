@@ -352,7 +352,7 @@ def test_cells_that_are_none(cell: object) -> None:
 
 @pytest.mark.parametrize("version", [2, 3])
 def test_an_old_format(version: int) -> None:
-    """Notebooks of old formats can be read."""
+    """The answers in notebooks of the old formats 2 and 3 are found."""
     notebook = nbformat.from_dict(json.loads(_student(d=ANSWER, c=COUNTER, w=WRITES)))
     old = nbformat.convert(notebook, version)
     made = _rebuilt(json.dumps(old).encode())

@@ -23,7 +23,7 @@ from tests.support import eventually, usual
 def opened(
     browser: Browser, url: str, width: int = 1280, colours: Colours = "light"
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page with its token, and wait until it shows its data."""
+    """Open the page with the token in the URL, and wait until the page shows its data."""
     with page_at(browser, f"{url}/?token={TOKEN}", width, colours) as (page, words):
         expect(page.locator("body[data-shown='0']")).to_be_visible()
         yield page, words

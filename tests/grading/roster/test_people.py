@@ -32,7 +32,7 @@ def _file(folder: Path, content: str | bytes) -> Path:
     ids=["as documented", "another order", "Excel", "tabs", "blanks", "UTF-16", "two columns for the name"],
 )
 def test_as_spreadsheets_and_platforms_save_it(tmp_path: Path, content: str | bytes) -> None:
-    """A roster may have any column order, any separator and a byte order mark."""
+    """A roster can have any column order, any separator and a byte order mark."""
     [person] = read_roster(_file(tmp_path, content))
     assert (person.name, person.id, person.email, person.username, person.section) == (
         *("Jane Doe", "17", "jane@uni.example"),

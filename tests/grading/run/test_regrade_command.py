@@ -89,7 +89,7 @@ def test_an_option_that_makes_no_sense(tmp_path: Path, words: list[str], said: s
 
 
 def test_a_private_part_without_an_exercise(tmp_path: Path) -> None:
-    """If a file of private checks declares no part, the command refuses it before grading."""
+    """If a file of private checks declares no part, the command refuses the file before grading."""
     hand_in(tmp_path / "in", "s01", "00")
     private = tmp_path / "private"
     private.mkdir()
