@@ -89,7 +89,7 @@ def test_a_cell_that_stops_the_run_is_named(tmp_path: Path) -> None:
 
 
 def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a check fails, `course sync --execute` exits with status 1 and prints the report."""
+    """If a check fails, `course sync --execute` exits with status 1 and prints the check's report."""
     wrong = SERVER.replace("request.width * request.length", "request.width + request.length")
     path = solution(tmp_path, code(SET_UP, id="set-up"), exercise(source=wrong), check())
     before = path.read_text()

@@ -82,8 +82,8 @@ def looks(count: int) -> None:
 
 
 # panel: compares a call through the service panel with a call through a rospy proxy. The duration of a
-# panel's call includes the conversion of the form's strings to a request, and of the response to strings. The
-# client and the server use one core each; calls of the panel and of the proxy alternate.
+# panel's call includes the conversions between the form's strings and ROS messages. The client and the server
+# use one core each; calls of the panel and of the proxy alternate.
 
 PANEL_BAR = 1.15
 
@@ -349,8 +349,8 @@ def serve(folder: Path) -> None:
 # with and without recording. The result of a run is the lower quartile of its durations. The benchmark prints
 # the fastest run, because other programs on the machine can only make a run slower.
 
-# The first number limits the ratio of the durations with and without recording, for a call on a new
-# connection. The second number limits the duration of an event in µs.
+# The first number is the maximum ratio of two durations of a call on a new connection: with and without
+# recording. The second number is the maximum duration of an event in µs.
 RECORDER_BAR, EVENT_BAR = 1.03, 5.0
 NODE = """
 import json, os, statistics, sys, time

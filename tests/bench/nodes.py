@@ -137,8 +137,8 @@ def processor_time(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-# fuzz: makes 10,000 random calls to the simulator, or publishes random messages. The benchmark prints whether
-# the node still runs, whether the node's state is consistent, and how much memory the node uses.
+# fuzz: sends 10,000 random calls and messages to the simulator. The benchmark prints whether the node still
+# runs, whether the node's state is consistent, and how much memory the node uses.
 
 BLOCKS = 10
 

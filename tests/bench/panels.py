@@ -141,7 +141,7 @@ def idle() -> float:
 
 
 def busy() -> tuple[float, Counter[str]]:
-    """Return the percentage of a core and the number of updates while 20 nodes use 40 topics."""
+    """Return the panel's percentage of a core and its number of updates while 20 nodes use 40 topics."""
     topics = [f"/topic_{number}" for number in range(TOPICS)]
     commands = [
         [f"robot_{number}", ",".join(topics[number::NODES]), ",".join(topics[(number + 7) % NODES :: NODES])]

@@ -155,7 +155,7 @@ def seek(graph: Locator, seconds: float) -> None:
 def test_a_recording_of_the_graph_is_played_without_a_kernel(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str
 ) -> None:
-    """The slider selects a time of the recording, and the button Play starts the recording."""
+    """The slider selects a time of the recording, and the Play button starts the playback."""
     page.set_viewport_size({"width": 560, "height": 900})
     page.goto(save(played(widget), tmp_path / "page.html", theme))
     graph = panel(page, "Graph panel")
@@ -242,7 +242,7 @@ def test_print_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Pat
 
 
 def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """The downloaded picture is an image with a title, and with colours for light, dark and print."""
+    """The downloaded picture has a title, and colours for the light theme, the dark theme and print."""
     file = tmp_path / "graph.svg"
     file.write_text(widget.svg(), encoding="utf-8")
     page.goto(file.as_uri())

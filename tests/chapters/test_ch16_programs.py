@@ -62,7 +62,7 @@ def call(service: str, args: JSON, **more: str) -> dict[str, JSON]:
 def test_reply_to_a_call_contains_the_response(
     line: websocket.WebSocket, geometry: NodeProcess, args: object
 ) -> None:
-    """The reply contains the service, the given id, the response, and the result true."""
+    """The reply contains the service, the id of the call, the response, and the result true."""
     assert said(line, call("/getGeometry", args, id="mine")) == {
         "op": "service_response",
         "id": "mine",

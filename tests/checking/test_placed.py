@@ -160,7 +160,7 @@ def test_a_changed_class_changes_nothing_in_the_real_object(placed: PlacedObject
 
 
 def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: Drawer) -> None:
-    """If the method raises a built-in error, the kernel gets an error of the same class.
+    """If a method of the real object raises a built-in error, the kernel gets an error of the same class.
 
     For an error that is not built in, the kernel creates a class with the same name.
     """

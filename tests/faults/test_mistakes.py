@@ -30,7 +30,7 @@ def _params() -> Iterator[ParameterSet]:
 
 
 def test_the_table_is_complete() -> None:
-    """Each section has the expected number of rows, and each row has a fault or a build."""
+    """Each section of the table has the expected number of rows, and each row has a fault or a build."""
     assert Counter(row.section for row in ROWS) == COUNTS
     assert all(row.shown for row in ROWS)
 

@@ -83,7 +83,7 @@ def times(out: Path) -> list[list[str]]:
 def test_work_is_where_the_grader_looks(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Notebooks and packages are stored by student, and students without work are listed."""
+    """Work is stored in a folder for each student, and students without work are listed."""
     notebook = raw(handed_out("05"))
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": notebook, **packaged(), "notebooks/own.ipynb": b"{}"})
     add_home(homes, "ben", {NOTEBOOK: notebook})  # This student has moved the notebook.

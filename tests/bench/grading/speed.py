@@ -209,7 +209,7 @@ COURSE = Places.of().checkout / "course"
 def kill_main() -> None:
     """Repeatedly kill a run of the grading, and continue this run.
 
-    Print how often the grades were the same as without a kill, and no process remained.
+    Print in how many runs the grades were the same as without a kill and no process remained.
     """
     times = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:

@@ -124,7 +124,7 @@ def test_errors_are_shown_at_their_fields(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_different_type_is_reported(lab: Lab, lab_page: Page) -> None:
-    """The panel names the publisher and the subscriber that use another message type."""
+    """The panel shows each publisher and each subscriber whose message type differs from the panel's type."""
     others = """
         talker = rospy.Publisher("/speed", String, queue_size=1, latch=True)
         talker.publish("fast")

@@ -214,7 +214,7 @@ def test_a_notebook_of_this_edition_under_a_name_of_the_first(
 
 
 def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
-    """If a chapter has two notebooks, the newer one is graded, and a note contains the name of the other."""
+    """If a chapter has two notebooks, the newer notebook is graded, and a note names the older notebook."""
     source = folder(
         tmp_path,
         {f"one_1_2{n}_05_write_a_server{end}.ipynb": five for n, end in enumerate(["", "-2", "-10"])},

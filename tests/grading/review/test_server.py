@@ -27,7 +27,7 @@ FOREIGN: list[dict[str, str]] = [
 
 
 def test_foreign_requests_are_refused(tmp_path: Path) -> None:
-    """The server refuses a request without the token, or with a wrong host or origin."""
+    """The server refuses a request without the token, or with a wrong Host or Origin header."""
     out = write_class(tmp_path)
     change = {"number": 1, "points": "1", "comment": ""}
     with serving(out) as url:
@@ -69,7 +69,7 @@ def _refused(out: Path, *options: str) -> str:
 
 
 def test_the_command(tmp_path: Path) -> None:
-    """A second `course review` of the folder is refused, and saved points remain after SIGKILL."""
+    """A second `course review` for the same folder is refused, and saved points remain after SIGKILL."""
     out = write_class(tmp_path / "grades")
     with _review(out, "--part", "5.1") as (process, url, token):
         own = {"Authorization": f"token {token}"}
