@@ -26,7 +26,7 @@ def root(tmp_path: Path) -> Path:
 
 
 def write(root: Path, notebook: Notebook, name: str = "05_write_a_server") -> None:
-    """Write a solution as JSON, as a front end does."""
+    """Write a solution notebook as JSON, as a notebook editor does."""
     (root / "solutions").mkdir(exist_ok=True)
     (root / "solutions" / f"{name}.ipynb").write_text(json.dumps(notebook))
 

@@ -201,7 +201,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """Runs the till (the node of a cash register) in a separate process, and restarts it after each exit."""
+    """Runs the till (the node of a cash register) in a process; restarts the till after each exit."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder

@@ -355,7 +355,7 @@ def spent(pid: int) -> float:
 
 
 def watch(client: BlockingKernelClient, pids: list[int]) -> tuple[list[float], float, float]:
-    """Return each process's percentage of a core, the updates per second, and the kB per second."""
+    """Return the CPU use of each process (% of a core), the updates per second, and the kB per second."""
     before, began, updates, size = [spent(pid) for pid in pids], time.monotonic(), 0, 0
     while (left := began + TOPIC_WATCH - time.monotonic()) > 0:
         try:

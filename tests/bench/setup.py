@@ -161,7 +161,7 @@ def import_time(statement: str) -> float:
 
 
 def imports_main() -> None:
-    """Print the median difference between each import and the import of rospy."""
+    """Print the median difference in duration between each import and the import of rospy."""
     taken: dict[str, list[float]] = {name: [] for name in STATEMENTS}
     for _ in range(ROUNDS):
         peer = import_time(PEER)

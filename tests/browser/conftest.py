@@ -15,7 +15,7 @@ SIZE: ViewportSize = {"width": 1280, "height": 1000}  # px
 
 @pytest.fixture(scope="session")
 def context(browser: Browser) -> Iterator[BrowserContext]:
-    """Return a browser context whose pages share a cache and may use the clipboard."""
+    """Return a browser context whose pages share a cache and have access to the clipboard."""
     context = browser.new_context(viewport=SIZE, permissions=["clipboard-read", "clipboard-write"])
     yield context
     context.close()

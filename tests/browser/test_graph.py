@@ -259,7 +259,7 @@ def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: P
 def test_a_panel_saved_by_an_older_release_still_shows(
     widget: GraphPanel, page: Page, tmp_path: Path
 ) -> None:
-    """A panel from an older release, without rates and namespaces, is drawn."""
+    """A panel that an older release saved, without rates and namespaces, is still drawn."""
     address = tmp_path / "page.html"
     save(widget, address)
     text = re.sub(r'"(activity|spaces)":', r'"not_\1":', address.read_text())

@@ -95,7 +95,7 @@ def test_on_off_returns_the_state(on_off: NodeProcess, number: str, state: str) 
 
 
 def test_on_off_refuses_other_numbers(on_off: NodeProcess) -> None:
-    """The error message contains the wrong number and the allowed numbers."""
+    """If the number is neither 0 nor 1, the error message contains this number and the allowed numbers."""
     for number in ("2", "-1", "2147483647"):
         done = terminal("rosservice", "call", "/on_off", "--", number)
         assert done.returncode == 2
@@ -171,7 +171,7 @@ def test_set_moves_the_switch() -> None:
 
 @pytest.mark.usefixtures("switch")
 def test_set_to_the_present_position_does_not_move() -> None:
-    """If the switch already has the requested position, success is False."""
+    """If the switch already has the requested position, the field `success` is False."""
     assert move(False) == (False, "already closed")
     move(True)
     assert move(True) == (False, "already open")

@@ -84,7 +84,7 @@ FAILED_CALLS: list[tuple[str, JSON, str]] = [
 
 
 def test_failed_call_gets_its_error_message(line: websocket.WebSocket, geometry: NodeProcess) -> None:
-    """The reply contains the result false and the error message."""
+    """If a call fails, the reply contains the result false and the error message."""
     for service, args, words in FAILED_CALLS:
         answer = said(line, call(service, args))
         assert answer["result"] is False
@@ -172,7 +172,7 @@ def test_goal_succeeds_with_feedback(asking: Kernel) -> None:
 
 
 def test_cancelled_goal_returns_the_number_so_far(asking: Kernel) -> None:
-    """After a cancellation, the result is the number of fetched things."""
+    """After a goal is cancelled, the result contains the number of things that the robot has fetched."""
     fetched, preempted = asking.run("""
         client.send_goal(FetchGoal(things=500, seconds=0.05), feedback_cb=tell)
         assert third.wait(20)

@@ -104,7 +104,7 @@ def test_only_a_teacher_of_the_hub_opens_the_page(url: str) -> None:
     assert login(url, "student")[0] == 403
     assert login(url, "wrong")[0] == 403
     assert login(url, "teacher", state="forged")[0] == 403
-    assert ask(f"{url}/?token=teacher")[0] == 302  # The service ignores a token in the address.
+    assert ask(f"{url}/?token=teacher")[0] == 302  # The service ignores a token in the URL.
     assert ask(f"{url}/changes")[0] == 403
 
 

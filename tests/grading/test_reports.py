@@ -295,7 +295,7 @@ def test_students_who_need_attention() -> None:
 
 
 def test_without_walls_every_report_says_so(tmp_path: Path) -> None:
-    """Each report contains the warning once, even if the reports are written again."""
+    """Without a sandbox, each report contains one warning, even if the reports are written again."""
     write_reports([replace(grade, sandboxed=False) for grade in class_of(2)], tmp_path)
     for path in _files(tmp_path):
         assert "without a sandbox" in path.read_text(), path

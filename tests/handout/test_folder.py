@@ -92,7 +92,7 @@ def test_changes_by_hand_are_not_overwritten(tmp_path: Path) -> None:
 
 
 def test_a_folder_inside_the_course_is_refused() -> None:
-    """A folder inside the checkout is refused."""
+    """A release into a folder inside the checkout is refused."""
     with pytest.raises(HandoutError, match="Give a folder outside"):
         refuse_inside(ROOT / "out", ROOT)
 

@@ -44,7 +44,7 @@ def test_unusual_names_are_refused(name: str) -> None:
 
 
 def test_an_account_of_the_system_is_refused() -> None:
-    """A roster cannot contain an account such as daemon."""
+    """A roster cannot contain a system account such as `daemon`."""
     with pytest.raises(HubError, match="account of the system"):
         accounts.make_accounts(["daemon"])
 

@@ -73,7 +73,7 @@ def credit_main() -> int:
 
 
 def _doing_nothing(right: Answer) -> Iterator[Answer]:
-    """Yield answers that define the same names as `right`, but do nothing."""
+    """Yield answers that define the same names as the answer `right`, but do nothing."""
     magic = right.source.startswith("%%")
     first, _, text = right.source.partition("\n") if magic else ("", "", right.source)
     head = f"{first}\n" if magic else ""

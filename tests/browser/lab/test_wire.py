@@ -73,7 +73,7 @@ def test_the_keyboard_reaches_every_step_and_piece(page: Page, tmp_path: Path) -
 
 
 def test_the_whole_exchange_is_a_table(page: Page, tmp_path: Path) -> None:
-    """The view also shows all steps as a table."""
+    """A table in the view lists all steps of the call."""
     wire = show(page, tmp_path, WireView("/getGeometry", **SIDES))
     wire.get_by_text("The whole exchange as a table").click()
     table = wire.get_by_label("The whole exchange")

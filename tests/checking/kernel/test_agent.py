@@ -13,12 +13,12 @@ from course_pkg.checking.plain_values import Reply, Value
 
 
 def ask(namespace: dict[str, Value], folder: Path | None = None, **question: Value) -> Reply:
-    """Return the reply to a request."""
+    """Return the agent's reply to a request."""
     return KernelAgent(namespace, folder).reply({"ask": 1, **question})
 
 
 def call(namespace: dict[str, Value], *args: Value, within: float = 1.0) -> Reply:
-    """Return the reply to a request that calls the function `f`."""
+    """Return the agent's reply to a request that calls the function `f`."""
     return ask(namespace, do="call", name="f", args=list(args), kwargs={}, within=within)
 
 

@@ -102,7 +102,7 @@ def test_limit_ends_it(function: Callable[[], None]) -> None:
 
 @STUBBORN
 def test_stop_button_ends_it(function: Callable[[], None]) -> None:
-    """The first interrupt ends each function."""
+    """Each function ends after the first interrupt."""
     started = time.monotonic()
     threading.Timer(LIMIT, os.kill, (os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):

@@ -79,7 +79,7 @@ def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 
 def test_reports_do_not_go_into_a_students_folder(tmp_path: Path) -> None:
-    """A folder that contains submissions is refused as --out."""
+    """A folder that contains submissions is refused as the folder for `--out`."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "old/.grading/secret": b"x"}, "new")
     for wrong in (source, source / "s01"):
         with pytest.raises(GradingError, match=r"--out .* already contains files of the submissions"):
