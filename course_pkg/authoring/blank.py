@@ -1,16 +1,16 @@
 """Removes the answer from an exercise cell.
 
-There are three rules for the removal of an answer. All other bytes of the cell stay unchanged.
+Three rules remove the answer. The rest of the cell does not change.
 
 1. `...` replaces the body of a function or method; a docstring is kept.
-2. `name = value` at the top level becomes `name = ...`. The line stays unchanged if the value is a call of a
-   function or class that the same cell defines, such as `counter = Counter()`: such a line contains no part
-   of the answer.
-3. The line `%%writefile` at the top of a cell does not change. If the written file is a Python file, rules 1
-   and 2 apply. In any other file, only the comment lines at the top remain, and `...` replaces all others.
+2. `name = value` at the top level becomes `name = ...`. A line such as `counter = Counter()` does not change
+   if the same cell defines `Counter`, because the line contains no part of the answer.
+3. The line `%%writefile` at the top of a cell does not change. If the cell writes a Python file, rules 1 and
+   2 apply to the file. In any other file, only the comment lines at the top remain, and `...` replaces the
+   other lines.
 
-In some exercises, students repair a text. The exercise cell then contains the text `start` (see
-checking/parts.py) instead of a blank answer. The check fails if the text is unchanged.
+In some exercises, students repair a text. The student's cell then contains the wrong text, which is the
+attribute `start` of the part (see checking/parts.py). The check fails if the text is unchanged.
 """
 
 from __future__ import annotations
@@ -40,10 +40,10 @@ class Edit(NamedTuple):
 
 
 def handed_out(exercise: str, source: str) -> str:
-    """Return the source of a student's exercise cell.
+    """Return the source of the exercise cell in the student's notebook.
 
     `exercise` is the id of the part, such as "05.1", and `source` is the source of the solution. Raises
-    AuthoringError if no rule fits the solution.
+    AuthoringError if no rule applies to the solution.
     """
     return start_of(exercise).strip("\n") or blank(source)
 
@@ -51,7 +51,7 @@ def handed_out(exercise: str, source: str) -> str:
 def blank(source: str) -> str:
     """Return the source of an exercise cell without the answer.
 
-    Raises AuthoringError if no rule fits the cell.
+    Raises AuthoringError if no rule applies to the cell.
     """
     first, newline, rest = source.partition("\n")
     if not first.startswith("%%"):
@@ -88,7 +88,7 @@ def _blank_python(source: str) -> str:
 class _Cell:
     """The source of a cell as bytes, and its syntax tree.
 
-    `ast` counts columns in bytes.
+    The source is stored as bytes, because `ast` counts columns in bytes.
     """
 
     def __init__(self, source: str) -> None:
@@ -101,7 +101,7 @@ class _Cell:
         self._defined = {node.name for node in self._tree.body if isinstance(node, Function | ast.ClassDef)}
 
     def edits(self) -> Iterator[Edit]:
-        """Yield the replacements of rules 1 and 2."""
+        """Yield the replacements for rules 1 and 2 in the docstring of this module."""
         for node in self._tree.body:
             yield from self._rule_1(node)
             if isinstance(node, ast.Assign | ast.AnnAssign):
@@ -129,7 +129,7 @@ class _Cell:
         return isinstance(called, ast.Name) and called.id in self._defined
 
     def _end_of_kept(self, node: Function) -> int:
-        """Return the end of the signature and the docstring, including a comment on the same line."""
+        """Return the position after the signature, the docstring, and a comment on the same line."""
         documented = ast.get_docstring(node, clean=False) is not None
         end = self._end(node.body[0]) if documented else self._end_of_signature(node)
         rest = self.data[end:].split(b"\n", 1)[0]
@@ -151,7 +151,7 @@ class _Cell:
         raise AuthoringError(f"The signature of {node.name} has no colon at its end.")
 
     def _end_of_body(self, node: Function) -> int:
-        """Return the end of the body, including the indented comments after the body."""
+        """Return the position after the body and after the indented comments that follow the body."""
         last = node.body[-1].end_lineno or node.lineno
         for number in range(last, len(self._lines)):
             line = self._lines[number]
@@ -174,7 +174,10 @@ class _Cell:
         return self._starts[node.end_lineno - 1] + node.end_col_offset  # type: ignore[attr-defined,no-any-return]
 
     def _column(self, node: ast.expr) -> int:
-        """Return the column after `node` in characters, as `tokenize` counts; `ast` counts bytes."""
+        """Return the column after `node`, counted in characters.
+
+        `tokenize` counts characters, but `ast` counts bytes.
+        """
         line = self._lines[(node.end_lineno or 1) - 1]
         return len(line[: node.end_col_offset].decode())
 
@@ -200,8 +203,8 @@ def _dots(target: ast.expr) -> str:
 def _parsed(source: str) -> tuple[str, ast.Module]:
     """Parse `source`; return the text that was parsed, and its syntax tree.
 
-    If `source` is not valid Python, a name of the same length first replaces each part that only IPython
-    understands. Raises AuthoringError if this text is not valid Python either.
+    If `source` is not valid Python, each part that only IPython understands is first replaced by a name of
+    the same length. Raises AuthoringError if this text is not valid Python either.
     """
     try:
         return source, ast.parse(source)

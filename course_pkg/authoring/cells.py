@@ -1,8 +1,8 @@
 """The cells of a notebook, and the course's keys in their metadata. No other module uses these keys.
 
-The metadata of an exercise cell are, for example, `{"course": {"exercise": "05.1", "points": 2}}`. The
-metadata of its check cell are `{"course": {"check": "05.1"}}`. A cell that shows an error on purpose has the
-tag `raises-exception`.
+In the metadata of an exercise cell, `course.exercise` is the id of the part, such as "05.1", and
+`course.points` is the number of points. In the metadata of a check cell, `course.check` is the id of the
+part. A cell that shows an error on purpose has the tag `raises-exception`.
 """
 
 from __future__ import annotations
@@ -21,11 +21,12 @@ class CourseMetadata(TypedDict, total=False):
 
 
 class CellMetadata(TypedDict, total=False):
-    """The metadata of a cell that the course reads or writes."""
+    """The keys of a cell's metadata that the course reads or writes."""
 
     course: CourseMetadata
     tags: list[str]
-    recording: bool  # The value is True for a cell that the site adds to a notebook for recording panels.
+    # `recording` is True for a cell that the build of the site adds to a notebook in order to record panels.
+    recording: bool
 
 
 class Output(TypedDict, total=False):
@@ -61,7 +62,7 @@ class WidgetModel(TypedDict, total=False):
 
 
 class WidgetModels(TypedDict):
-    """The saved widgets of a notebook, by their model ids."""
+    """The saved widgets of a notebook; each key is the model id of a widget."""
 
     state: dict[str, WidgetModel]
 
@@ -106,7 +107,7 @@ def may_raise(cell: Cell) -> bool:
 
 
 def code_cells(notebook: Notebook) -> list[Cell]:
-    """Return the code cells, in order."""
+    """Return the code cells of `notebook`, in their order."""
     return [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
 
 

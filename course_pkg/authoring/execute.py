@@ -24,9 +24,8 @@ from course_pkg.errors import AuthoringError
 from course_pkg.ros.process.supervised import temporary_folder
 from course_pkg.setup.progress import Progress
 
-CELL_TIMEOUT = 120  # A cell may run for this many s, because a reader should not wait longer.
-# Each core runs this many notebooks at the same time, because a notebook mostly waits for nodes and
-# responses.
+CELL_TIMEOUT = 120  # A cell is stopped after this many s, because a reader should not wait longer.
+# Each core runs PER_CORE notebooks at the same time, because a notebook mostly waits for nodes and responses.
 PER_CORE = 3
 A_CELL = 2.0  # The estimate of a notebook's running time adds this many s for each cell.
 
@@ -61,11 +60,11 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 
 
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
-    """Run all `notebooks`, several at the same time; the keys of the mapping are the notebooks' names.
+    """Run all `notebooks`, several at the same time; the keys of `notebooks` are the names.
 
-    Calls `finished` with the name and the outputs of each notebook that ran to its last cell. Returns a dict
-    with the error of each other notebook; the keys are the notebooks' names. A KeyboardInterrupt ends all
-    kernels.
+    Call `finished` with the name and the outputs of each notebook that ran to its last cell. Return a dict
+    with the error of each notebook that stopped earlier; the keys are the notebooks' names. A
+    KeyboardInterrupt ends all kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
     # In the main thread, nbclient would handle SIGINT itself, and would interrupt only one kernel. Therefore,
@@ -98,7 +97,6 @@ async def _run_all(
 
 
 def _about_check(name: str, check: str, report: str) -> str:
-    """Return a message about a check that did not pass; the message contains the report."""
     shown = indent(report, "  ") or "  The cell shows no report."
     return f"{name}: check {check} has not passed, so nothing was stored for this chapter:\n{shown}"
 
@@ -106,7 +104,7 @@ def _about_check(name: str, check: str, report: str) -> str:
 def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
     """Return the names sorted by estimated time, with the longest time first.
 
-    If a long notebook started last, the whole run would take longer.
+    If the longest notebook started last, the run of all notebooks would take longer.
 
     The estimate grows with the number of a notebook's cells and with the deadlines of its checks.
     """
@@ -174,7 +172,6 @@ def _by_files(folder: Path) -> Config:
 
 
 def _what_went_wrong(notebook: Notebook, error: Exception) -> str:
-    """Return a message with the cell in which the run stopped, and the error."""
     failed = [
         cell["id"]
         for cell in code_cells(notebook)

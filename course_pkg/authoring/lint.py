@@ -21,7 +21,7 @@ def problems(name: str, notebook: Notebook) -> list[str]:
 
 
 def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
-    """Yield an error if an exercise has no check below it, or if two cells have the same id."""
+    """Yield an error for each exercise cell without a check cell, and for each id that is used twice."""
     exercises: list[str] = []
     checks: list[str] = []
     for cell in notebook["cells"]:
@@ -41,7 +41,7 @@ def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
 
 
 def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[str, str]]:
-    """Yield an error for each exercise without points, without a check, or without a removable answer."""
+    """Yield an error for each exercise without points, without a check, or without an answer to remove."""
     for cell in code_cells(notebook):
         if not (exercise := exercise_of(cell)):
             continue

@@ -1,4 +1,4 @@
-"""A pytest plug-in: nbval ignores the SVG image of a figure, but compares the output's text.
+"""A pytest plug-in: nbval ignores the SVG image in an output, but compares the text of the output.
 
 A figure shows measured times, so its SVG differs in every run. Without this plug-in, nbval ignores only PNG
 and JPEG images.
@@ -12,7 +12,7 @@ SKIPPED = "image/svg+xml"
 
 
 def pytest_collectstart(collector: pytest.Collector) -> None:
-    """Add SVG to the types that nbval ignores in this notebook. nbval documents this attribute."""
+    """Add SVG to `skip_compare`, the output types that nbval ignores; nbval documents this attribute."""
     attributes = vars(collector)
     if "skip_compare" in attributes:
         attributes["skip_compare"] += (SKIPPED,)

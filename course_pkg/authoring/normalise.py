@@ -1,6 +1,6 @@
-"""Removes data from a notebook that differ between runs or between front ends.
+"""Removes from a notebook the data that differ between two runs, or between JupyterLab and other front ends.
 
-Printed addresses, ports, times and process ids are not removed, because they belong to the chapter.
+Printed addresses, ports, times and process ids are not removed, because they are content of the chapter.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def strip(notebook: Notebook) -> None:
 
 
 def _name(cells: list[Cell]) -> None:
-    """Give each cell a valid and unique id; a second run does not change the ids."""
+    """Give each cell a valid and unique id; a second call does not change the ids."""
     taken: set[str] = set()
     for cell in cells:
         wanted = _wanted_id(cell)

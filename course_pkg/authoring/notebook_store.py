@@ -45,7 +45,7 @@ class NotebookStore:
             yield from _if_different(self.root / "notebooks" / path.name, text_of(derived(solution)))
 
     def orphans(self) -> list[Path]:
-        """Return the students' notebooks for which `solutions` contains no notebook."""
+        """Return the students' notebooks for which there is no solution."""
         names = {path.name for path in self.solutions()}
         derived = sorted((self.root / "notebooks").glob("[0-9][0-9]_*.ipynb"))
         return [path for path in derived if path.name not in names]
@@ -56,7 +56,7 @@ class NotebookStore:
 
 
 def sync(*, check: bool = False, root: Path | None = None) -> int:
-    """Normalise the solutions, derive the notebooks from them, and return 0.
+    """Normalise the solutions, derive the students' notebooks from the solutions, and return 0.
 
     If `check` is True, nothing is written, and the function raises AuthoringError with a list of the outdated
     files. If a solution has problems, the function raises AuthoringError with a list of all problems.

@@ -12,16 +12,16 @@ from course_pkg.panels.stills import STILLS
 from course_pkg.types.fields import Plain
 
 SVG = "image/svg+xml"
-# This key is in the metadata of each picture that shows measured times; its value is a digest of the drawing
-# code.
+# The key MADE_BY is in the metadata of each picture with measured times; its value is a digest of the code
+# that made the picture.
 MADE_BY = "code"
 
 
 class _Stored(NamedTuple):
     """A stored picture with measured times.
 
-    `made_by` is the digest of the drawing code, and `others` contains the data of the same output in other
-    MIME types.
+    `made_by` is a digest of the code that made the picture, and `others` contains the data of the same output
+    in other MIME types.
     """
 
     picture: Plain
@@ -33,9 +33,9 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
     """Add a still picture to each panel of `executed`; `executed` itself is changed.
 
     The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
-    show a recording, contain measured times, so they differ in each run. The function keeps the picture from
-    the notebook `stored` if nothing has changed that affects the picture: the code of the cells up to this
-    cell, the drawing code, and the output's data in other MIME types.
+    show a recording, contain measured times, so they differ in each run. Such a picture depends on the code
+    of the cells up to its cell, on the drawing code, and on the output's data in other MIME types. If none of
+    these has changed, the function keeps the picture from the notebook `stored`.
     """
     panels = SavedPanels(executed)
     before = {cell["id"]: cell for cell in code_cells(stored)}
@@ -58,9 +58,9 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
 
 
 def _settle(output: Output, made_by: str, old: list[_Stored]) -> None:
-    """Store the digest `made_by` in the output.
+    """Store `made_by`, a digest of the code that made the picture, in the metadata of `output`.
 
-    Use an old picture with the same digest and the same data, if there is one.
+    If an old picture has the same digest, and its output has the same other data, use the old picture.
     """
     output["metadata"].setdefault(SVG, {})[MADE_BY] = made_by
     same = next((each for each in old if each.made_by == made_by and each.others == _others(output)), None)

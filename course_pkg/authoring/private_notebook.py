@@ -1,6 +1,6 @@
 """A pytest plug-in that gives each notebook of nbval a separate master, folder, workspace and results.
 
-Therefore, several workers of pytest-xdist can run notebooks at the same time, with `--dist loadfile`.
+With this plug-in, several workers of pytest-xdist can run notebooks at the same time (`--dist loadfile`).
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ OPENED = pytest.StashKey[ExitStack]()
 def pytest_runtest_setup(item: pytest.Item) -> Generator[None]:
     """Change the environment and the current folder before the first cell, when nbval starts the kernel.
 
-    nbval starts the kernel in the folder of the notebook's path. Therefore, the path of the notebook is
-    changed during this step.
+    nbval starts the kernel in the folder of the notebook's path. Therefore, this function changes the
+    notebook's path until the kernel runs.
     """
     notebook = item.parent
     if not hasattr(item, "cell") or not isinstance(notebook, pytest.File) or OPENED in notebook.stash:

@@ -38,7 +38,7 @@ class Tool:
     took: float = 0.0  # s
 
     def run(self, places: Places) -> None:
-        """Run the tool; return after it has ended."""
+        """Run the tool, and wait until it has ended."""
         started = time.monotonic()
         program, *arguments = self.command.split()
         result = subprocess.run(
@@ -58,9 +58,9 @@ def run_suite(arguments: Sequence[str]) -> int:
     """Run all tools and all tests, even if some of them fail; return 0 if all of them pass.
 
     `--changed` runs only the tests that a change since the last successful run can affect. `--slow` runs only
-    the slow tests. All other `arguments` are passed to pytest; in this case, no tool runs.
+    the slow tests. All other `arguments` are passed to pytest; with such arguments, no tool runs.
 
-    Raises SetupError if the environment does not contain the tools, for example with conda.
+    Raises SetupError if the tools are not installed, for example in a conda environment.
     """
     places = Places.of()
     if not (places.venv / "bin" / "ruff").exists():

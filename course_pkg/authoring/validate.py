@@ -23,13 +23,13 @@ PLUGINS = (
 def validate(
     notebooks: Sequence[Path], *, workers: int | None = None, timeout: float = 900.0, compare: bool = True
 ) -> subprocess.CompletedProcess[str]:
-    """Run nbval with `notebooks` on `workers` workers, and return the exit status and the output.
+    """Run nbval for `notebooks` in `workers` processes, and return the exit status and the output.
 
     Each notebook has its own master. All cells of a notebook run on the same worker (`--dist loadfile`),
     because two workers cannot share a kernel of nbval. nbval starts the kernel in the folder of the notebook.
-    Therefore, the notebook is copied into an empty folder first. If `compare` is False, nbval does not
-    compare outputs; a notebook then passes if all cells run. Raises subprocess.TimeoutExpired after `timeout`
-    s.
+    Therefore, `validate` first copies each notebook into a separate, empty folder. If `compare` is False,
+    nbval does not compare outputs; a notebook then passes if all cells run. Raises subprocess.TimeoutExpired
+    after `timeout` s.
     """
     with temporary_folder("course-nbval-") as folder:
         copies = [_copied(path, folder) for path in notebooks]

@@ -12,7 +12,7 @@ from course_pkg.types.fields import Plain
 VIEW = "application/vnd.jupyter.widget-view+json"
 STATES = "application/vnd.jupyter.widget-state+json"
 OF_THE_COURSE = re.compile(r"course_pkg\.panels\.(?P<panel>\w+)\.view\.\w+")
-PRIVATE = ("layout", "tabbable", "tooltip")  # These are traits of ipywidgets.
+PRIVATE = ("layout", "tabbable", "tooltip")  # traits of ipywidgets that a picture does not need
 
 
 class SavedPanel(NamedTuple):

@@ -28,7 +28,7 @@ class AssertionFailed(Exception):
 
 
 def matches(pattern: str) -> re.Pattern[str]:
-    """Return a condition: it matches a value whose text contains `pattern`, in upper or lower case."""
+    """Return a condition for values whose text matches the regular expression `pattern`; case is ignored."""
     return re.compile(pattern, re.IGNORECASE | re.DOTALL)
 
 
@@ -48,7 +48,7 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
     if isinstance(expected, bool) or isinstance(actual, bool):
         return expected is actual
     if isinstance(expected, (int, float)) and isinstance(actual, (int, float)):
-        # If an integer is too large for a float, no other number is near it.
+        # If an integer is too large for a float, only an equal number is accepted.
         with suppress(OverflowError):
             return expected == actual or math.isclose(expected, actual, rel_tol=near, abs_tol=near)
         return False
@@ -56,9 +56,9 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
 
 
 def first_unlike(expected: Iterable[Json], actual: Iterable[Json], near: float) -> tuple[Json, Json]:
-    """Compare two lists item by item; return the first pair of different items, or ({}, {}).
+    """Compare two lists item by item; return the first pair of unequal items, or ({}, {}) if there is none.
 
-    A report shows only this pair, not all items.
+    A report shows only the returned pair, not all items.
     """
     pairs = zip(expected, actual, strict=False)
     return next((pair for pair in pairs if not same(*pair, near)), ({}, {}))
@@ -77,7 +77,7 @@ def _fits(condition: Condition, actual: Json, near: float) -> bool:
     if callable(condition):
         try:
             return bool(condition(actual))
-        # The function may fail because the value has another type than it expects.
+        # The function may raise an error because it expects a value of another type.
         except (TypeError, ValueError, LookupError, AttributeError):
             return False
     return same(plain(condition), actual, near)
@@ -87,11 +87,11 @@ class Results:
     """The assertions that were checked, and the last call that the check made."""
 
     def __init__(self) -> None:
-        # This function returns the last call as text. It is called only if a check fails.
+        # This function returns the check's last call as text. The function is called only if a check fails.
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
         self.marked: set[str] = set()  # The check has marked these goals as fulfilled.
-        # This dict contains each goal that was examined separately, and whether the goal holds.
+        # The keys are the goals that were examined separately; a value is true if the goal is fulfilled.
         self._goals: dict[str, bool] = {}
 
     @property

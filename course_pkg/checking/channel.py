@@ -71,7 +71,7 @@ class Channel(JsonChannel):
 
 
 def require_current(reply: Mapping[str, Json]) -> None:
-    """Raise CheckError if the kernel reports that the code in use is older than the code in its cell."""
+    """Raise CheckError if the kernel reports that a function is older than the code in its cell."""
     if older := str(reply.get("older") or "")[:LONGEST]:
         raise CheckError(older)
 

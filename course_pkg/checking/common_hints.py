@@ -5,8 +5,8 @@ from __future__ import annotations
 from course_pkg.checking.assertions import Hints, matches
 
 NO_RETURN = "The function ended without a return line, so it returned None. Add a return line."
-# After a ServiceException, the error message is from the handler. After a wrong return value, the error
-# message is from rospy.
+# This pattern matches the message of a handler's ServiceException, but not rospy's message about a wrong
+# return value.
 REFUSED_BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")
 # rospy sends this error message to the client if a handler raises an exception other than ServiceException.
 HANDLER_RAISED: Hints = [

@@ -1,4 +1,4 @@
-"""The object that a check uses: the student's servers, topics, functions and values, and assertions."""
+"""The object through which a check uses the student's servers, topics, functions and values."""
 
 from __future__ import annotations
 
@@ -63,9 +63,10 @@ class CheckContext:
     def fulfilled(self, goal: str) -> None:
         """Mark a goal of the part as fulfilled: the goal earns its points even if a later assertion fails.
 
-        Call this after the assertions of the goal: if an assertion fails, the run ends before this call. Call
-        it for the main goal of a part first, so that a program that does nothing earns no points for a later
-        goal. If the goal was also examined with `goal`, it is fulfilled only if these assertions hold, too.
+        Call this method after the assertions of the goal: if an assertion fails, the run ends before this
+        call. Call this method for the main goal of a part first, so that a program that does nothing earns no
+        points for a later goal. If a `goal` block has also examined this goal, the goal is fulfilled only if
+        the assertions of the block hold, too.
         """
         self._results.marked.add(goal)
 
@@ -185,7 +186,7 @@ class CheckContext:
     # -- servers and topics for the student's client
 
     def serve(self, name: str, kind: str | ServiceClass, script: Script) -> ScriptedServer:
-        """Serve `name` with `script` (peers/scripted_server.py) until the check is over or leave() is called.
+        """Serve `name` with the function `script` (see peers/scripted_server.py) until the check ends.
 
         `kind` is a type's name, or a class. After the check, the former server is registered again.
         """
@@ -193,7 +194,7 @@ class CheckContext:
         return self._open.enter_context(ScriptedServer(self._node, name, cls, script))
 
     def faulty(self, name: str, kind: str, work: Work) -> FaultyServer:
-        """Serve `name`: `work` handles requests, and `plan` contains faults (see peers/faulty_server.py)."""
+        """Serve `name` with the handler `work`, and with planned faults (see peers/faulty_server.py)."""
         server = FaultyServer(self._node, name, self.service_class(kind), work)
         self._open.enter_context(server)
         return server
@@ -201,7 +202,7 @@ class CheckContext:
     def absent(self, name: str, *, stale: bool = False) -> Absent:
         """Unregister the server of `name` until the check ends.
 
-        If `stale` is true, register an address with a closed port instead.
+        If `stale` is true, register an address with a closed port for the service.
         """
         return self._open.enter_context(Absent(self._node, name, stale=stale))
 
@@ -235,9 +236,9 @@ class CheckContext:
     def fake_node(
         self, name: str, topic: str, kind: str, *, alive: bool = True, reused: bool = False
     ) -> FakeNode:
-        """Register a node that does not exist as a publisher of `topic`.
+        """Register a fake node, which has no process, as a publisher of `topic`.
 
-        If `alive` is true, the node responds to a ping. Otherwise, it seems to be killed.
+        If `alive` is true, the node responds to a ping. If `alive` is false, the node seems to be killed.
         """
         return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive, reused=reused))
 
@@ -268,8 +269,8 @@ class CheckContext:
     ) -> Result:
         """Call the student's `function` in the kernel, and interrupt it after `within` s.
 
-        The default is 5 s on an idle machine, and more on a busy machine. A report shows the call as Python
-        code, or the text `worded` instead.
+        If `within` is not given, the time limit is 5 s on an idle machine, and more on a busy machine. A
+        report shows the call as Python code, or the text `worded` instead.
         """
         label = worded or f"{function}()"
         self.doing = f"waiting for {label}"
@@ -290,8 +291,8 @@ class CheckContext:
         """Run the check's own `code` in the kernel, separately from the student's names.
 
         The names that `code` defines can be arguments of the student's function, such as `service` in
-        `context.run("close", Its("service"))`. The student's code can modify these objects, so store the data
-        of the check in an object of `place` instead. Raises CheckError if the code fails.
+        `context.run("close", Its("service"))`. The student's code can modify these objects, so store the
+        check's data in an object for which place() defines a proxy. Raises CheckError if the code fails.
         """
         error = self._channel.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
         if error:
@@ -303,8 +304,8 @@ class CheckContext:
 
         The proxy has the methods and attributes that the class of `item` declares with `@remote`. The proxy
         can be an argument of the student's function, such as in `context.run("move", Its("shelf"))`. The code
-        of `prepare` can also use the proxy. Keep all data that the check relies on in `item`, not in code of
-        `prepare`.
+        of `prepare` can also use the proxy. Store all data that the check trusts in `item`, not in variables
+        of the code of `prepare`.
         """
         if self._placed is None:
             self._placed = self._open.enter_context(PlacedObjects())
@@ -320,8 +321,8 @@ class CheckContext:
     def folder(self, *, files: Sequence[str] = (), texts: Mapping[str, str] | None = None) -> Folder:
         """Return a new folder, on the kernel's computer, with copies of the student's files and folders.
 
-        `texts` contains the content of the check's own files, by path. These files replace copies with the
-        same path.
+        `texts` maps the path of each of the check's own files to its content. The check's own files replace
+        copies with the same path.
         """
         return Folder(self._channel, files, texts or {}, self._under_way)
 

@@ -22,7 +22,7 @@ PRIVATE = "private_"  # The modules with an instructor's own parts have this pre
 PUBLIC = ("__init__.py", "programs")  # Student code may read these files of a chapter.
 FOLDER = re.compile(r"ch(\d\d)_\w+")
 IMPORTED = re.compile(r"^\s*(?:from|import)\s+course_pkg\.chapters(?:\.|\s+import\s+)ch(\d\d)_", re.MULTILINE)
-# The pattern matches a file of a package in a workspace.
+# The pattern matches the name of a needed file in a package of the workspace.
 PACKAGED = re.compile(r"file:src/(?P<package>[^/]+)/(?P<path>.+)")
 
 
@@ -30,8 +30,9 @@ PACKAGED = re.compile(r"file:src/(?P<package>[^/]+)/(?P<path>.+)")
 class Part:
     """One graded part of a chapter; calling it examines the student's work.
 
-    `needs` are the names that the student defines. If a name is missing or its value is still `...`, the part
-    counts as not attempted. Names that are joined with `|` are alternatives: one of them is enough.
+    `needs` contains the names that the student has to define. If a name is missing or its value is still
+    `...`, the part counts as not attempted. Names that are joined with `|` are alternatives: one of them is
+    enough.
 
     `deadline` is the time limit of the whole check in s. If the student has to repair a file, `start` is the
     `%%writefile` cell with the wrong file. Otherwise, `start` is empty. The points are divided among `goals`.
@@ -110,9 +111,9 @@ def folder_of(chapter: str) -> Path:
 
 
 def folders_for(chapter: str) -> list[Path]:
-    """Return a sorted list: the folder of a chapter, such as "14", and of each chapter that it imports from.
+    """Return, sorted, the folder of a chapter, such as "14", and the folders of the chapters that it imports.
 
-    Indirect imports are included. For an unknown chapter, the list is empty.
+    Chapters that are imported indirectly are included. For an unknown chapter, the list is empty.
     """
     modules, found, new = _modules(), set[str](), {chapter}
     while new := (new & modules.keys()) - found:
@@ -161,7 +162,7 @@ def secret_paths() -> list[Path]:
 
 
 def _modules() -> dict[str, str]:
-    """Return the module of each chapter, by its number."""
+    """Return a dict that maps the number of each chapter to the name of the chapter's module."""
     names = [module.name for module in pkgutil.iter_modules(importlib.import_module(CHAPTERS).__path__)]
     return {found[1]: f"{CHAPTERS}.{found[0]}" for name in names if (found := FOLDER.fullmatch(name))}
 
@@ -189,9 +190,9 @@ def start_of(check: str) -> str:
 
 
 def find(check: str) -> Part:
-    """Return the part with the id `check`; only its own chapter is imported.
+    """Return the part with the id `check`; import only the chapter of this part.
 
-    Raises UnknownCheck if there is no such part; the message contains similar ids.
+    Raises UnknownCheck if no part has this id; the message contains similar ids.
     """
     chapter = str(check).partition(".")[0]
     if chapter in chapters():

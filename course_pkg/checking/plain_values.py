@@ -23,7 +23,8 @@ ITEMS = 10_000
 def of_kind(kind: type[Item], value: Json, name: str) -> Item:
     """Return `value`, which must be an instance of `kind`.
 
-    Raises CheckError otherwise: student code has then changed an object of the check in the kernel.
+    Raises CheckError for a value of another class: student code has then changed an object of the check in
+    the kernel.
     """
     if not isinstance(value, kind):
         raise CheckError(

@@ -22,7 +22,10 @@ class RandomInputs:
         return round(self._random.uniform(low, high), digits)
 
     def numbers(self, count: int, low: float, high: float, *, digits: int = 2) -> list[float]:
-        """Return `count` different numbers: with equal numbers, a program that confuses them could pass."""
+        """Return `count` different numbers.
+
+        With equal numbers, a program that confuses two of them could pass.
+        """
         found: list[float] = []
         while len(found) < count:
             number = self.number(low, high, digits=digits)

@@ -4,7 +4,7 @@ The record shows students their progress in the course. Students can change the 
 own folder. The record is therefore never used for a grade.
 
 Grades come from check runners that `course grade` starts. The import-linter contract in pyproject.toml
-forbids this import in the packages grading and sandbox.
+forbids imports of this module in the packages grading and sandbox.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class PartRecord:
     check: str
     verdict: str
     checked: str
-    passed: str  # The part passed for the first time at this time.
+    passed: str  # A check of the part passed for the first time at this time.
     checks: int
     points: float = 0  # These are the points of the last check.
 
@@ -88,7 +88,7 @@ class StudentRecord:
         return self.folder / f"{check}.json"
 
     def _before(self, check: str) -> tuple[PartRecord | None, str]:
-        """Return the stored record of a part and "", or None and a message about a damaged file.
+        """Return (stored record of a part, ""), or (None, message about a damaged file).
 
         A damaged file is renamed.
         """

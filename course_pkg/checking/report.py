@@ -60,7 +60,7 @@ class Review:
     """An instructor's decision about an answer after the check."""
 
     comment: str = ""  # This comment is for the student.
-    # The points from the check, or None if the instructor has not changed the points.
+    # These are the points of the check if the instructor has confirmed or changed them; otherwise, None.
     computed: float | None = None
     outdated: bool = False  # The value is true if the answer has changed since the review.
 
@@ -75,7 +75,8 @@ class Report:
     points: float = 0
     possible: float = 0
     assertions: tuple[Assertion, ...] = ()
-    note: str = ""  # This text says what the student should do next, if no assertion shows it.
+    # An instruction for the student that belongs to no assertion, for example if a name is not defined.
+    note: str = ""
     printed: str = field(default="", compare=False)  # Student code printed this text during the check.
     # The points are divided among these goals; without goals, a check gives all points or none.
     goals: tuple[Goal, ...] = ()

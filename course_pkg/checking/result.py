@@ -46,7 +46,7 @@ class Result:
     def returned(self, kind: type[Item] | None = None) -> Json | Item:
         """Assert that the function returned without an error, and return its value as plain data.
 
-        If `run` called a function of the check, not of the student, pass the expected class as `kind`. In
+        If the called function belongs to the check, not to the student, pass the expected class as `kind`. In
         this case, CheckError is raised for a value of another class.
         """
         assertion = f"{self._label} returns"
@@ -59,7 +59,7 @@ class Result:
     def raised(self, assertion: str, kind: str, *, saying: str = "", hints: Hints = ()) -> str:
         """Assert that the call raised an error of the class `kind` or a subclass; return the error's message.
 
-        `saying` is a pattern that the message has to match.
+        `saying` is a pattern that the error's message has to match.
         """
         actual = self.error or f"the value {shown(self._value)}"
         if not self._is(kind) or not matches(saying).search(self.error):
@@ -86,14 +86,14 @@ class Finished:
 
     def __init__(self, reply: Mapping[str, Json]) -> None:
         status, took = reply.get("status"), reply.get("took")
-        # The value None means that the command was still running.
+        # `status` is None if the command was still running.
         self.status = status if isinstance(status, int) else None
         self.out = str(reply.get("out", ""))
         self.err = str(reply.get("err", ""))
         self.took = took if isinstance(took, float) else 0.0  # The command took this time in s.
         # `ran` is the CPU time in s of a command that was stopped at its time limit. `queued` is the time in
-        # s for which it waited for a CPU.
+        # s for which the command waited for a CPU.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0
-        # The value is infinity if the time is unknown.
+        # The waiting time is infinity if the kernel did not send a waiting time.
         self.queued = queued if isinstance(queued, float) else math.inf

@@ -1,7 +1,8 @@
-"""Joins the files of a panel's front end into one ES module and one style sheet for its widget.
+"""Joins the JavaScript files of a panel into one ES module, and its CSS files into one style sheet.
 
-A widget sends its code to the page as a single string. The source files are ordinary ES modules. This module
-inserts the imported files and removes the import statements.
+A widget sends its JavaScript code to the browser as one string, but the source files are ES modules that
+import each other. The function `module` inserts the code of the imported files, and removes the import
+statements.
 """
 
 from __future__ import annotations
@@ -17,10 +18,10 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class)\b)", re.MU
 
 @cache
 def module(path: Path, frame: Path | None = None) -> str:
-    """Return the ES module at `path`; each relative module that it imports is inserted once.
+    """Return the code of the ES module at `path`, together with the code of the modules that it imports.
 
-    `frame` is the path of a module that defines the function `framed`. If `frame` is given, the result
-    exports `framed(render)` instead of `render`.
+    `frame` is the path of an ES module that defines the JavaScript function `framed`. If `frame` is given,
+    the result exports `framed(render)` instead of `render`.
     """
     done: set[Path] = set()
     around = f"{_EXPORT.sub('', _inlined(frame.resolve(), done))}\n" if frame else ""

@@ -22,14 +22,14 @@ PageMessage: TypeAlias = dict[str, Any]
 class Panel(anywidget.AnyWidget):
     """A widget that any thread may update.
 
-    A subclass names its ES module in `front_end` and its style sheet in `style_sheet`. A subclass overrides
-    `received` to handle the messages of the page. A subclass that works only while a page shows the panel
-    also overrides `shown` and `hidden`.
+    In a subclass, `front_end` is the path of the ES module, and `style_sheet` is the path of the style sheet.
+    A subclass overrides `received` to handle the messages of the page. A subclass that works only while a
+    page shows the panel also overrides `shown` and `hidden`.
     """
 
     front_end: ClassVar[Path]
     style_sheet: ClassVar[Path]
-    # Each of these traits can contain an error message.
+    # `errors` contains the names of the traits that can contain an error message.
     errors: ClassVar[tuple[str, ...]] = ("notice", "trouble")
     shared_sheets: ClassVar[tuple[Path, ...]] = ()  # Several panels use these style sheets.
 
@@ -39,8 +39,8 @@ class Panel(anywidget.AnyWidget):
     )
 
     def __init__(self) -> None:
-        # A thread holds this lock while it handles a message from the page, and while it changes a trait.
-        # Without this lock, a change by another thread could be lost.
+        # A thread holds the lock `turn` while it handles a message from the page, and while it changes a
+        # trait. Without this lock, a change by another thread could be lost.
         self.turn = threading.RLock()
         self._views: set[str] = set()
         super().__init__()

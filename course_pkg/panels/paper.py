@@ -1,7 +1,8 @@
 """Draws the still picture of a panel as an SVG without scripts, row by row from top to bottom.
 
-A viewer of notebooks inserts several pictures into one page. Ids and style sheets of different pictures could
-conflict, so a picture contains neither. The colours are the colours of the light theme in look.css.
+A program that displays a notebook puts several pictures into one page. Ids and style sheets of different
+pictures could conflict, so a picture contains neither. The colours are the colours of the light theme in
+look.css.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 from xml.etree.ElementTree import Element, SubElement, tostring
 
-# The keys are the names of a panel's traits, and the values are JSON data.
+# In a State, the keys are the names of a panel's traits, and the values are JSON data.
 State: TypeAlias = Mapping[str, Any]
 
 GROUND, RAISED, WASH = "#ffffff", "#f4f6f8", "#e8f0fb"
@@ -85,7 +86,7 @@ class Paper:
 
     @property
     def inside(self) -> float:
-        """The width between the edges (px)."""
+        """The width of the picture without the left and right margins (px)."""
         return self.width - 2 * EDGES
 
     def write(
@@ -98,7 +99,7 @@ class Paper:
             self.y += style.height
 
     def put(self, text: str, x: float, middle: float, style: Style = PLAIN, *, anchor: str = "start") -> None:
-        """Write one line. `middle` is the y coordinate of the middle of its letters. `y` does not change."""
+        """Write one line. `middle` is the y coordinate of the middle of the letters. `y` does not change."""
         attributes = {
             "x": number(x),
             "y": number(middle + 0.35 * style.size),
@@ -118,7 +119,7 @@ class Paper:
         self.write(text, CODE if mono else PLAIN, left=EDGES + left)
 
     def row(self, columns: Sequence[Column], texts: Sequence[str], *, room: float = 4.0) -> None:
-        """Write one text into each column of a table, and move `y` below the highest text."""
+        """Write one text into each column of a table, and move `y` below the tallest text."""
         top = low = self.y
         for column, text in zip(columns, texts, strict=True):
             self.y = top
@@ -140,7 +141,10 @@ class Paper:
         return left + width + 8
 
     def radio(self, text: str, left: float, *, chosen: bool = False) -> float:
-        """Draw one of several options, and return the left edge of the next option; `y` does not change."""
+        """Draw one option of a question, and return the x coordinate for the next option.
+
+        `y` does not change.
+        """
         self.add(
             "circle", cx=left + 7, cy=self.y + 10, r=6, fill=GROUND, stroke=ACCENT if chosen else EDGE
         ).set("stroke-width", "1.5")
@@ -161,7 +165,7 @@ class Paper:
     def box(
         self, x: float, y: float, width: float, height: float, *, fill: str, edge: str = "none", rx: float = 4
     ) -> Element:
-        """Draw a rectangle and return it."""
+        """Draw a rectangle, and return its SVG element."""
         return self.add("rect", x=x, y=y, width=width, height=height, rx=rx, fill=fill, stroke=edge)
 
     def band(self, text: str, *, bad: bool = False) -> None:
@@ -179,7 +183,7 @@ class Paper:
         self.y += room
 
     def add(self, tag: str, **attributes: float | str) -> Element:
-        """Add an element, and return it. In the names of attributes, each underscore becomes a hyphen."""
+        """Add an SVG element, and return it. In the names of attributes, each underscore becomes a hyphen."""
         made = Element(tag)
         for name, value in attributes.items():
             made.set(name.replace("_", "-"), value if isinstance(value, str) else number(value))
@@ -227,7 +231,10 @@ def cut(text: str, style: Style, width: float) -> str:
 
 
 def wrapped(text: str, style: Style, width: float) -> list[str]:
-    """Split a text into lines of at most `width` px. The lines keep their indentation."""
+    """Split a text into lines of at most `width` px.
+
+    Each line has the same indentation as the paragraph in `text` to which the line belongs.
+    """
     lines: list[str] = []
     for paragraph in clean(text).split("\n"):
         indent = paragraph[: len(paragraph) - len(paragraph.lstrip())].replace(" ", "\N{NO-BREAK SPACE}")
@@ -244,7 +251,6 @@ def wrapped(text: str, style: Style, width: float) -> list[str]:
 
 
 def _pieces(word: str, style: Style, width: float) -> list[str]:
-    """Split a word into several pieces if the word is wider than `width` px."""
     most = max(1, int(width / style.width("n")))
     if style.width(word) <= width:
         return [word]

@@ -12,9 +12,9 @@ Value = TypeVar("Value")
 class Poller(Generic[Value]):
     """Calls `read` every `every` s on a separate thread, from start() to stop().
 
-    The poller calls `changed` with each value that differs from the previous value. The poller calls `failed`
-    with an error, unless the previous error had the same text. After start(), all three functions run on the
-    separate thread.
+    The poller calls `changed` with each value that differs from the previous value. If `read` raises an
+    error, the poller calls `failed` with this error, unless the previous call of `read` raised an error with
+    the same text. After start(), `read`, `changed` and `failed` run on the separate thread.
     """
 
     def __init__(
@@ -32,7 +32,7 @@ class Poller(Generic[Value]):
         self._stop: threading.Event | None = None
 
     def start(self) -> None:
-        """Start to poll; a second call has no effect."""
+        """Start the thread, unless the thread is already running."""
         if self._stop is None:
             self._stop = threading.Event()
             thread = threading.Thread(target=self._poll, args=(self._stop,), daemon=True, name="panel-poller")

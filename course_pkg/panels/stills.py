@@ -1,7 +1,7 @@
 """The still picture of each panel, for pages without widgets.
 
 A picture depends only on the traits of the panel. Therefore, a picture can be drawn later, outside the
-kernel, when a notebook is saved. A kernel needs no time for pictures.
+kernel, when a notebook is saved.
 """
 
 from __future__ import annotations
@@ -57,7 +57,8 @@ def _without_docstrings(source: str) -> str:
     return ast.unparse(module)
 
 
-# The keys are the folders of the panels. The saved state of a widget contains the same folder name.
+# The keys of STILLS are the names of the panels' folders. The saved state of a panel's widget contains the
+# name of its folder.
 STILLS = {
     "breakit": Still(breakit),
     "choices": Still(choices),

@@ -1,4 +1,4 @@
-"""Stores the student's predictions, choices and answers on disk, in one JSON file for each kind."""
+"""Stores the student's predictions, choices and answers on disk, in three JSON files."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Store(Generic[Record]):
         self.path = path or state_folder() / self.file
 
     def read(self) -> dict[str, Record]:
-        """Return all records by key, or {} if there is no file yet.
+        """Return a dict of all records by key, or {} if the file does not exist yet.
 
         Raises InvalidPredictions if the file is not valid.
         """
@@ -64,9 +64,8 @@ class Store(Generic[Record]):
     def write(self, record: Record) -> Record:
         """Store a record, and return it; an earlier record with the same key is replaced.
 
-        The method holds a lock on the file while it reads and replaces the file. Therefore, records that two
-        kernels store at the same time are both saved. Raises the same errors as `read`, and OSError if the
-        file cannot be written.
+        A lock on the file ensures that records from two kernels are both saved. Raises the same errors as
+        `read`, and OSError if the file cannot be written.
         """
         with locked(self.path.parent):
             records = {**self.read(), record.key: record}

@@ -51,7 +51,7 @@ def supervise(
     """Start the master, the command runner and the student's process; wait until the student's process ends.
 
     After SIGTERM, the supervisor stops waiting and ends all processes. All processes of the part end together
-    with this process.
+    with the supervisor.
     """
     namespaces.die_with_parent()
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)

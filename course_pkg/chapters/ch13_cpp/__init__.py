@@ -1,3 +1,3 @@
-"""Chapter 13, cpp: its checks, fixtures, example answers, recordings and programs."""
+"""Chapter 13, C++: its checks, fixtures, example answers, recordings and programs."""
 
 TITLE = "Read and build the C++ side"

@@ -36,7 +36,7 @@ class Folder:
         self._number = reply.get("folder")
 
     def command(self, *argv: str, within: float = 10.0, worded: str = "") -> Finished:
-        """Run a command here, for at most `within` s, or longer on a busy machine.
+        """Run a command in this folder, for at most `within` s, or longer on a busy machine.
 
         The command "python" starts the kernel's own interpreter.
 
@@ -64,7 +64,7 @@ class Running:
     def __init__(self, channel: Channel, number: int, show: Callable[[], None]) -> None:
         self._channel = channel
         self._number = number
-        self.show = show  # From now on, reports show this command as the last command.
+        self.show = show  # After a call of show(), reports show this command as the last command.
 
     @property
     def status(self) -> int | None:
@@ -80,7 +80,7 @@ class Running:
     def stop(self) -> Finished:
         """End the command.
 
-        The status is None if the command was still running; `out` contains both output streams.
+        The status is None if the command was still running; `out` contains stdout and stderr.
         """
         return Finished(self._channel.ask("stop", timeout=ENDING, process=self._number))
 
@@ -97,7 +97,7 @@ class Running:
 def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) -> bool:
     """Wait up to `within` s until `condition` holds for the graph of the master at `uri`.
 
-    Return whether it holds.
+    Return whether `condition` holds.
 
     The master may start during the wait.
     """
@@ -111,9 +111,9 @@ def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) ->
 
 
 def telling_line(printed: str) -> str:
-    """Return the last line with an error, or the last line if no line has one.
+    """Return the last line of `printed` that contains an error; without such a line, return the last line.
 
-    Colours, and the path of the current folder, are removed.
+    Colour codes and the path of the current folder are removed.
     """
     lines = [line.strip() for line in COLOUR.sub("", printed).splitlines() if line.strip()]
     telling = [line for line in lines if "rror" in line or "annot" in line or "nvalid" in line]

@@ -1,8 +1,8 @@
 """A check's folders on the kernel's computer, and the commands that run in them.
 
-A check never changes the student's own files: it uses copies, together with its own files. The commands get
-the course's environment, not the kernel's environment. A package that a student has sourced therefore cannot
-replace a package that the check builds.
+A check never changes the student's own files: it uses copies of these files, and adds its own files. The
+commands get the course's environment, not the kernel's environment. A package that a student has sourced
+therefore cannot replace a package that the check builds.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from course_pkg.ros.process.supervised import SupervisedProcess, temporary_folde
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.setup import Places, environment
 
-PRINTED = 65536  # At most this number of characters of the output is stored.
+PRINTED = 65536  # At most this number of characters of a command's output is stored.
 GRACE = 2.0  # A node has to end within this time in s after SIGINT; a node with rospy takes 0.6 s.
 
 
@@ -32,7 +32,7 @@ class CommandFolders:
     """Folders and running commands with ID numbers; close() ends the commands and deletes the folders."""
 
     def __init__(self, find: Callable[[str], Path]) -> None:
-        self._find = find  # The function returns the path of a student's file.
+        self._find = find  # This function returns the path of a student's file.
         self._open = ExitStack()
         self._root: Path | None = None  # This folder contains all other folders.
         self._folders: list[Path] = []
@@ -117,16 +117,16 @@ class _Running:
 
 
 def _place(name: str) -> str:
-    """Return the path at which a file is copied into a folder of the check.
+    """Return the path of a file's copy, relative to the check's folder.
 
-    A relative path does not change. For an absolute path, only the file name is used.
+    A relative path does not change. For an absolute path, or a path outside the folder, use only the file
+    name.
     """
     path = Path(os.path.normpath(name))
     return path.name if path.is_absolute() or ".." in path.parts else str(path)
 
 
 def _copy(source: Path, target: Path) -> None:
-    """Copy a file or a folder with its permissions and links."""
     target.parent.mkdir(parents=True, exist_ok=True)
     if source.is_dir():
         shutil.copytree(source, target, symlinks=True, dirs_exist_ok=True)
@@ -142,7 +142,7 @@ def _environment(folder: Path) -> dict[str, str]:
     """Return the course's environment; PWD is set because catkin_make uses it as the working directory."""
     try:
         known = environment.merged(Places.of(), os.environ)
-    except (OSError, ValueError):  # Without a finished set-up, the current environment is used.
+    except (OSError, ValueError):  # If the course's set-up is incomplete, use the current environment.
         known = dict(os.environ)
     return {**known, "PWD": str(folder), "PYTHONUNBUFFERED": "1"}
 
@@ -175,7 +175,7 @@ def _finished(command: Sequence[str], folder: Path, timeout: float) -> Reply:
 
 
 def _scheduled(pid: int) -> Reply:
-    """Return the CPU time of a process's main thread, and its waiting time for a CPU, in s.
+    """Return how long a process's main thread has run, and how long it has waited for a CPU, in s.
 
     Source: /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). If this file cannot be read,
     the result is empty.

@@ -1,7 +1,7 @@
 """The kernel agent: it reads and runs the student's code when the check runner requests this.
 
-The agent makes no decisions. Student code can forge a reply, so the check runner trusts a reply only if it
-can observe the effect itself, such as a message.
+Student code can forge a reply, so the check runner trusts a reply only if the runner itself observes the
+effect, such as a message.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class PrintedText(io.TextIOBase):
         return True
 
     def write(self, text: str) -> int:
-        """Store `text` up to the limit."""
+        """Store `text`; the total length is limited to PRINTED characters."""
         self.text += text[: max(PRINTED - len(self.text), 0)]
         return len(text)
 
@@ -90,7 +90,7 @@ class KernelAgent:
         return {"answer": request.get("ask"), **reply}
 
     def close(self) -> None:
-        """End the commands of the check in this kernel, delete the check's folders, and close its proxies."""
+        """End the commands of the check in this kernel, delete the check's folders, and close the proxies."""
         self._handler_errors.close()
         if self._proxies is not None:
             self._proxies.close()
@@ -166,7 +166,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`; by default, rospy keeps the stream that existed earlier."""
+    """Let rospy's log print to `stream`; by default, it prints to the streams from the start of rospy."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers
@@ -200,7 +200,7 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
 
 def _described(error: BaseException) -> Json:
     called = traceback.walk_tb(error.__traceback__)
-    # Only the cells of the notebook run in the module `__main__`.
+    # Use only lines in cells: the cells of the notebook run in the module `__main__`, and no other code does.
     lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]
     return {
         "type": type(error).__name__,
@@ -255,7 +255,7 @@ def _is_placeholder(line: ast.stmt) -> bool:
 def _does_nothing(code: CodeType) -> bool:
     """Return whether the compiled code of a function does nothing.
 
-    is_blank() uses this test for a function whose source cannot be read.
+    is_blank() calls this function if it cannot read the source of a student's function.
     """
     blank = _nothing.__code__
     return code.co_code == blank.co_code and not code.co_names
@@ -265,7 +265,7 @@ def _nothing() -> None: ...
 
 
 def _look_at_file(path: Path) -> Reply:
-    """Return the kind of a file; if the file is missing, also return similar names in its folder."""
+    """Return the kind of a file ("file", "blank" or "missing"), and similar names if the file is missing."""
     kind = _kind_of_file(path)
     beside = [each.name for each in path.parent.glob("*")] if kind == "missing" else []
     return {"kind": kind, "alike": [*difflib.get_close_matches(path.name, beside, n=2)]}

@@ -35,8 +35,8 @@ class HandlerErrors(logging.Handler):
         error = sys.exc_info()[1]
         if error is None or not record.getMessage().startswith(ABOUT):
             return
-        # No line of the student is in the traceback if the handler was called with a wrong number of
-        # arguments.
+        # If rospy called the handler with a wrong number of arguments, the traceback contains no line of the
+        # student.
         began = any(students_frames(error.__traceback__))
         self._last = "\n".join(readable_traceback(error, _place, HEADER)) if began else ""
 
@@ -47,6 +47,6 @@ class HandlerErrors(logging.Handler):
 
 
 def _place(filename: str) -> str:
-    """Return the name of a file for a traceback; the code of a cell has no file name."""
+    """Return the file name for a traceback, or "Your cell" for the code of a cell."""
     path = Path(filename)
     return path.name if path.is_file() else "Your cell"

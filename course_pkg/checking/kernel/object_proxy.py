@@ -107,8 +107,6 @@ class ObjectProxies:
 
 
 class _Connection(JsonChannel):
-    """A connection to the check runner."""
-
     def __init__(self, port: int, key: str) -> None:
         try:
             sock = socket.create_connection(("127.0.0.1", port), timeout=CONNECT_TIMEOUT)
@@ -126,7 +124,7 @@ class _Connection(JsonChannel):
 
 
 def _class_of(item: dict[str, Json]) -> type:
-    """Return a class with the name, the methods and the attributes of the object's class."""
+    """Return a class with the name, methods and attributes that the real object's class has."""
     members: dict[str, Value] = {name: _method(name) for name in _names(item, "methods")}
     writable = set(_names(item, "writable"))
     for name in {*_names(item, "readable"), *writable}:

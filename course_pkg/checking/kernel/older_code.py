@@ -1,8 +1,8 @@
 """Find a student's function or class that is older than the code in its cell.
 
-If a function is older than its cell, a check would examine other code than the cell shows. One cause is a
-syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but not
-the cell that creates the service.
+If a function is older than its cell, a check would examine other code than the code in the cell. One cause is
+a syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but
+not the cell that creates the service.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class OlderCode:
         return None
 
     def _defined_again(self, function: FunctionType) -> bool:
-        """Return whether the last run defined the function with the same code.
+        """Return whether the last run of the cell defined the function again, with the same code.
 
         If the result is True, only other code in the cell has changed.
         """

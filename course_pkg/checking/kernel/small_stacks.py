@@ -1,7 +1,7 @@
-"""Kernel code: threads with small stacks, for checks that run many handlers at the same time.
+"""Code that a check runs in the kernel: it makes the stacks of new threads small, to save memory.
 
-Fifty handlers at the same time need fifty threads. With the default stack size of 8 MB, these threads need
-more memory than a sandbox has.
+Fifty handlers that run at the same time need fifty threads. With the default stack size of 8 MB, these
+threads need more memory than a sandbox has.
 """
 
 from __future__ import annotations

@@ -34,7 +34,8 @@ class TimeLimit:
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
         self._error = _coming_again(TimesUp)
-        self._raised = 0.0  # The time at which the error was last raised and not caught here.
+        # This is the last time (s) at which _end() raised the error without catching it.
+        self._raised = 0.0
         self._stopped = False  # The value is true after the user has pressed the Stop button.
 
     def call(self, function: Callable[[], Value]) -> Value:
@@ -71,7 +72,9 @@ class TimeLimit:
             self._raised = now
             raise self._error
         try:
-            raise self._error  # SIGALRM is pending again, but the library can first clean up.
+            # This statement sends SIGALRM again, so _end() runs again soon; before this, the library can
+            # clean up.
+            raise self._error
         except BaseException:  # noqa: BLE001
             return
 
@@ -91,10 +94,10 @@ def _is_called(frame: FrameType | None) -> bool:
 
 
 def _coming_again(error: type[BaseException]) -> type[BaseException]:
-    """Return a subclass of `error`; each new instance of it sends SIGALRM to this process again.
+    """Return a subclass of `error`; each new instance of this subclass sends SIGALRM to this process again.
 
-    Raise this class, not an instance. The `raise` statement then creates the instance. Python handles the new
-    signal only after the exception has left the function. If the instance existed before the `raise`
+    Raise the returned class, not an instance. The `raise` statement then creates the instance. Python handles
+    the new signal only after the exception has left the function. If the instance existed before the `raise`
     statement, Python could handle the signal too early.
     """
     again: Any = staticmethod(partial(_thread.interrupt_main, signal.SIGALRM))

@@ -1,4 +1,4 @@
-"""A check's server that fails with a planned list of faults, and recovers.
+"""A server of a check: it executes a list of planned faults, such as a crash with a later restart.
 
 A client cannot distinguish a planned fault from a real fault. A suspended process accepts connections but
 does not respond. After a kill, the server's registration remains, but its port is closed. A restarted process
@@ -21,7 +21,7 @@ from course_pkg.checking.peers.scripted_server import Act, Late, ScriptedServer,
 from course_pkg.checking.plain_values import Message, ServiceClass, Value
 from course_pkg.errors import GraphError
 
-# The function returns the fields of the response to a request.
+# A function of this type returns the fields of the response to a request.
 Work = Callable[[Message], Mapping[str, Value]]
 
 
@@ -41,8 +41,8 @@ class Frozen:
 class Crash:
     """End without a response; after `back` s, serve again at another address.
 
-    The registration remains at the master, as after a SIGKILL. If `unregisters` is true, the server first
-    unregisters, like a process that ends normally.
+    The server's registration remains at the master, as after a SIGKILL. If `unregisters` is true, the server
+    first unregisters, like a process that ends normally.
     """
 
     back: float
@@ -58,12 +58,13 @@ class Fault:
 
 
 class FaultyServer(ScriptedServer):
-    """Calls `work` for each request, or fails with the next fault from `plan`."""
+    """For each request, calls `work`, or executes the next fault from `plan`."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, work: Work) -> None:
         super().__init__(node, name, kind, self._scripted)
         self.plan: deque[Fault] = deque()
-        # Times of requests and of frozen connections, in s of time.monotonic().
+        # The times of requests, and of connections with a Frozen fault; each time is a value of
+        # time.monotonic().
         self.arrivals: list[float] = []
         self._work = work
         self._plan_lock = threading.Lock()
@@ -85,13 +86,13 @@ class FaultyServer(ScriptedServer):
             return response
         if isinstance(fault.what, Late):
             return Late(fault.what.delay, response)
-        return cast(Act, fault.what)  # The method _act also handles the faults that are not an Act.
+        return cast(Act, fault.what)  # _act() also executes the faults that are not an Act.
 
     def _arrived(self, *, frozen: bool = False) -> Fault | None:
-        """Record the time of a call, and remove its fault from the plan.
+        """Record the time of a call, and remove the fault of this call from the plan.
 
-        If `frozen` is true, nothing is recorded or removed unless the next fault is Frozen. A Frozen fault
-        occurs in the handshake, and all other faults occur after the request.
+        If `frozen` is true, record the call and remove the fault only if the next fault is Frozen. A Frozen
+        fault occurs in the handshake, and all other faults occur after the request.
         """
         with self._plan_lock:
             due = bool(self.plan) and (not frozen or isinstance(self.plan[0].what, Frozen))
@@ -102,7 +103,7 @@ class FaultyServer(ScriptedServer):
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
         """Reply to the handshake, unless the next fault is Frozen.
 
-        A probe, such as rosservice makes, removes no fault from the plan.
+        A probe (rosservice sends one, for example) removes no fault from the plan.
         """
         if header.get("probe") == "1":
             with self._plan_lock:

@@ -63,9 +63,9 @@ class Node:
             self.master.register_service(former.node, service, former.uri, former.node_uri)
 
     def forget_topics(self, made: Callable[[str], bool]) -> None:
-        """Unregister publishers and subscribers of the topics; `made` selects topics by name.
+        """Unregister all publishers and subscribers of the topics for whose names `made` returns true.
 
-        A student's function may have left these topics registered.
+        A student's function may have left publishers and subscribers registered.
         """
         entries = registrations(self.master)
         withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])
@@ -88,7 +88,7 @@ def on_the_graph(check: str) -> Iterator[Node]:
     name = f"check_runner_{check.replace('.', '_')}_{secrets.token_hex(4)}"
     master = MasterClient(master_uri(), caller=f"/{name}")
     master.pid()  # Without a master, init_node would wait for ever.
-    # Without this line, each check would write a log file into the student's log folder.
+    # Each check would otherwise write a log file into the student's log folder.
     rospy.core.configure_logging = lambda *_: None
     with held_back(signal.SIGTERM) as came:
         rospy.init_node(name, argv=[name], disable_rosout=True, disable_signals=True)
@@ -106,7 +106,7 @@ def on_the_graph(check: str) -> Iterator[Node]:
 
 @contextmanager
 def held_back(number: int) -> Iterator[list[int]]:
-    """Ignore a signal until the block has ended; yield a list with the signals that have arrived."""
+    """Ignore a signal during the `with` block; yield a list with the signals that have arrived."""
     came: list[int] = []
     before = signal.signal(number, lambda *_: came.append(number))
     try:
@@ -116,11 +116,11 @@ def held_back(number: int) -> Iterator[list[int]]:
 
 
 class FakeNode:
-    """A node that is registered as a publisher of `topic` during the block, but never publishes.
+    """A node that is registered as a publisher of `topic` during the `with` block, but never publishes.
 
-    If `alive` is true, its address is the address of the check's own node, so a ping succeeds. Otherwise, its
-    address has a closed port, as after a kill. If `reused` is true, another program listens on the port and
-    closes each connection.
+    If `alive` is true, the FakeNode has the address of the check's own node, so a ping succeeds. If `alive`
+    is false, the port of the address is closed, as after a kill. If `reused` is true, the port is open, but
+    each connection is closed, as if another program used the port.
     """
 
     def __init__(

@@ -51,7 +51,7 @@ class Publisher:
         return bool(wait_until(self._publisher.get_num_connections, within, stopped=self._over))
 
     def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
-        """Assert that a subscriber of the right type exists; return when it is connected.
+        """Assert that a subscriber of the right type exists; return when this subscriber is connected.
 
         `hints` are for the value "no subscriber"; a subscriber with another type does not count.
         """

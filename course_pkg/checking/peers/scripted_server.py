@@ -47,7 +47,7 @@ class Late:
 
 
 Act = Mapping[str, Value] | genpy.Message | Refuse | HangUp | Silence | Late
-Script = Callable[..., Act]  # A script returns the next action for a request.
+Script = Callable[..., Act]  # A script is a function that returns the server's action for a request.
 
 
 @dataclass
@@ -55,14 +55,14 @@ class Received:
     """The requests to a scripted server as plain data, in the order of their arrival."""
 
     requests: list[Fields] = field(default_factory=list)
-    # The connection header of each call, without probes.
+    # The connection headers of all calls; the headers of probes are not stored.
     headers: list[dict[str, str]] = field(default_factory=list)
     # This is the number of connections without a request, such as the connections of wait_for_service.
     probes: int = 0
 
 
 class ScriptedServer:
-    """Serves `name` during the block; after the block, the previous server is registered again."""
+    """Serves `name` during the `with` block; after the block, the previous server is registered again."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, script: Script) -> None:
         self.received = Received()
@@ -186,9 +186,9 @@ class ScriptedServer:
 
 
 class Absent:
-    """Unregisters the server of `name` during the block.
+    """Unregisters the server of the service `name` during the `with` block.
 
-    If `stale` is true, an address with a closed port is registered instead.
+    If `stale` is true, an address with a closed port is registered for the service.
     """
 
     def __init__(self, node: Node, name: str, *, stale: bool = False) -> None:

@@ -74,7 +74,7 @@ class Service:
         return replies
 
     def replies(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
-        """Do the same as at_once(), but without an assertion."""
+        """Make the same calls as at_once(), but do not assert that the service responds."""
         return self._call([self._request(**fields) for fields in requests])
 
     def refused(self, assertion: str, *, saying: str = "", hints: Hints = (), **fields: Value) -> str:

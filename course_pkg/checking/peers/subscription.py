@@ -74,7 +74,7 @@ class Subscription:
     def published(self, *, hints: Hints = (), within: float = 2.0) -> None:
         """Assert that a node publishes on the topic with the right type; return when the node is connected.
 
-        `hints` are for the wrong values "no publisher" or the name of a wrong type.
+        The actual value for `hints` is "no publisher", or the name of a wrong type.
         """
         assertion = f"{self._label} is published as {self.kind}"
         found = wait_until(self._found, within)

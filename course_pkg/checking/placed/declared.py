@@ -15,7 +15,8 @@ MARK = "__remote__"
 def remote(function: Function) -> Function:
     """Declare that the kernel may call this method, or may read and write the attribute of this property.
 
-    Arguments and results are plain values. A result can also be another object with remote methods.
+    Arguments and results of a remote method are plain values. A result can also be another object with remote
+    methods.
 
         @remote
         def read(self) -> int: ...
@@ -37,7 +38,6 @@ class Interface:
     writable: frozenset[str]
 
     def __bool__(self) -> bool:
-        """Return whether the class has declared any name."""
         return bool(self.methods or self.readable or self.writable)
 
 

@@ -47,8 +47,8 @@ LONGEST = 4000  # An error message has at most this number of characters.
 class PlacedObjects:
     """Objects with remote methods, and the kernel's connections to them; a context manager.
 
-    At the end of the block, all connections are closed. A call that is still waiting then raises an error in
-    the kernel. An object with waiting calls needs a method `close` that ends these calls.
+    At the end of the `with` block, all connections are closed. A call that is still waiting then raises an
+    error in the kernel. An object with waiting calls needs a method `close` that ends these calls.
     """
 
     def __init__(self) -> None:
@@ -174,7 +174,7 @@ class PlacedObjects:
 def _done(
     item: object, names: Interface, do: str, name: str, args: list[Json], kwargs: dict[str, Json]
 ) -> object:
-    """Execute the request `do` ("call", "get" or "set") for `name`, if `names` allows it."""
+    """Execute the request `do` ("call", "get" or "set") for `name`, which must be a remote name."""
     if do == "call" and name in names.methods:
         return getattr(item, name)(*args, **kwargs)
     if do == "get" and name in names.readable:

@@ -35,9 +35,9 @@ RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.processes.runner
 def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report:
     """Let a separate node examine part `check_id`, such as "05.1", and return the report.
 
-    `namespace` contains the names that the student has defined. If it is None, the names of the notebook are
-    used. An error of the check is shown in the report. Only KeyboardInterrupt is raised, and only after the
-    check runner has ended.
+    `namespace` contains the names that the student has defined. If `namespace` is None, the names of the
+    notebook are used. An error of the check is shown in the report. Only KeyboardInterrupt is raised, and
+    only after the check runner has ended.
     """
     check_id = str(check_id)
     if threading.current_thread() is not threading.main_thread():
@@ -85,7 +85,7 @@ def _runner() -> Iterator[Channel]:
 
 @contextmanager
 def _started_runner() -> Iterator[Channel]:
-    """Start a check runner; the check runner ends with this block, even if this process is killed."""
+    """Start a check runner; it ends after the `with` block, or when this process ends, even after SIGKILL."""
     if "ROS_MASTER_URI" not in os.environ:
         raise CheckError("The node does not exist yet. First run the set-up cell, which calls join().")
     ours, theirs = socket.socketpair()

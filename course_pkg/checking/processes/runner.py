@@ -57,7 +57,7 @@ def run_check(channel: Channel, store: Store | None = None, only: str = "") -> R
 
 
 def record(report: Report, seed: int) -> dict[str, Json]:
-    """Return the data that grading needs, and the data to repeat the check with COURSE_SEED."""
+    """Return the data for grading, and the seed, which can repeat the check with COURSE_SEED."""
     return {**report.as_dict(), "seed": seed, "time": time.time(), "course": _course_version()}
 
 
@@ -90,9 +90,9 @@ def _reported(part: Part, context: CheckContext) -> Report:
 
 
 def _require_marks(part: Part, marked: set[str]) -> None:
-    """Raise CheckError if the check did not mark exactly the goals of the part.
+    """Raise CheckError if the marked goals are not exactly the goals of the part.
 
-    The last goal may be unmarked.
+    The last goal of the part need not be marked.
     """
     texts = {goal.text for goal in part.goals}
     if wrong := (marked - texts) | (texts - marked - {goal.text for goal in part.goals[-1:]}):
@@ -104,7 +104,7 @@ def _not_attempted(part: Part, channel: Channel) -> str:
 
     A name is blank if its exercise is unchanged.
 
-    If alternatives exist, it is enough that the student has written one of them.
+    For alternative names, such as `left|right`, the student has to define only one name.
     """
     for need in part.needs:
         replies = {name: channel.ask("look", timeout=LOOK, name=name) for name in need.split("|")}
@@ -129,7 +129,7 @@ def _not_attempted(part: Part, channel: Channel) -> str:
 
 
 def _unchanged(part: Part, channel: Channel) -> str:
-    """Return an instruction for the student if the file to repair is unchanged, or ""."""
+    """Return an instruction for the student if the student has not changed the file to repair, or ""."""
     first, _, text = part.start.partition("\n")
     path = first.removeprefix("%%writefile").strip()
     now = channel.ask("source", timeout=LOOK, name=f"file:{path}").get("text") if path else None

@@ -1,7 +1,7 @@
 """The process of a check runner that a notebook has started.
 
-The process stores the result in the student's own record. If the student shares results, it also stores the
-result for the class view.
+The process stores the result in the student's own record. If the student shares results, the process also
+stores the result for the class view.
 """
 
 from __future__ import annotations

@@ -17,9 +17,9 @@ class Cases:
     For each case, `right` contains the right entry, and `decisive` contains the fact that proves this entry.
     `entries` contains a sentence about each possible entry.
 
-    Three other hints are `missing` for missing keys, `keys` for unknown keys, and `spelling` for an unknown
-    entry. `label` is the text for a case in titles of assertions, and `again` is the text for a case in
-    hints.
+    Three attributes are hints: `missing` for missing keys, `keys` for unknown keys, and `spelling` for an
+    unknown entry. `label` is the text for a case in titles of assertions, and `again` is the text for a case
+    in hints.
     """
 
     right: Mapping[str, str]

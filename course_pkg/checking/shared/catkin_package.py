@@ -18,7 +18,8 @@ from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.fault import locate
 
 BUILDS = "catkin_make builds the package"
-# The limits are the CPU time in s and the size of a file in KiB. A sandbox limits these values separately.
+# The limits are the CPU time in s and the size of a file in KiB. A sandbox has separate limits for these
+# values.
 LIMITS = "ulimit -t 20 -f 60000 2> /dev/null"
 # The time limit of the build in s. A build takes 3 s of CPU time, or 6 s on a machine with two cores and a
 # load average of 9.
@@ -26,7 +27,7 @@ BUILD = 50.0
 OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
-# With this path, ROS finds packages that contain only scripts without a build.
+# With this path, ROS finds the packages in `src` without a build; these packages contain only scripts.
 IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 # Without -j2, catkin_make would set a load limit, and make would wait while the machine is busy.
 CATKIN_MAKE = "catkin_make -j2"
@@ -68,7 +69,7 @@ class BuiltPackage:
         return self.folder.start("bash", "-c", f". {setup} && exec {line}", worded=worded or line)
 
     def md5(self, type_name: str) -> tuple[str, str]:
-        """Return (MD5 sum, "") of a service type that Python imports, or ("", error output)."""
+        """Import a service type in Python; return (its MD5 sum, ""), or ("", the error output)."""
         name = self.package.name
         line = f"python3 -c 'from {name}.srv import {type_name}; print({type_name}._md5sum)'"
         done = self.run(line)

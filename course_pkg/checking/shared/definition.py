@@ -1,7 +1,4 @@
-"""Read a student's definition of a service type with ROS's own rules.
-
-Return a hint if the definition is invalid.
-"""
+"""Read a student's definition of a service type with ROS's own rules."""
 
 from __future__ import annotations
 

@@ -17,9 +17,9 @@ def expect_geometry(
     volume: Hints,
     assertion: str = "area is width times length",
 ) -> None:
-    """Assert that a response contains the area `base`, and the volume of a box with this height.
+    """Assert that a response contains the area `base` and the volume `base` times `height`.
 
-    `area` and `volume` are the hints for the two fields.
+    `area` and `volume` are the hints for the two fields of the response.
     """
     context.expect(assertion, expected=base, actual=response.area, near=1e-3, hints=area)
     context.expect(

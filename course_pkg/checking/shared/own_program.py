@@ -16,8 +16,8 @@ def require_own_nodes(context: CheckContext, space: str, besides: Collection[str
     """Assert that no node in the namespace `space` is a program of the course; ignore the nodes in `besides`.
 
     The slave API of every program of the course has an additional method, which returns a record of calls. A
-    program that uses only rospy or roscpp does not have this method. A report shows this assertion only if it
-    fails.
+    program that uses only rospy or roscpp does not have this method. A report shows the assertion of this
+    function only if the assertion fails.
     """
     for node in context.look().nodes:
         if node.name.startswith(f"{space}/") and node.name not in besides and _returns_a_record(node.uri):
@@ -35,7 +35,7 @@ def require_own_nodes(context: CheckContext, space: str, besides: Collection[str
 def require_kernel(context: CheckContext, nodes: Collection[str]) -> None:
     """Assert that each of `nodes` is the kernel's node, not the node of another program.
 
-    A report shows this assertion only if it fails.
+    A report shows the assertion of this function only if the assertion fails.
     """
     kernel = context.run("rospy.get_name").value
     others = [node for node in nodes if node != kernel]

@@ -20,7 +20,7 @@ STARTS = re.compile(
     r"f?exec[lv]\w*|posix_spawnp?|v?fork|clone\d?|system|popen|dlm?open|syscall|mprotect|memfd_create"
 )
 NEEDED = re.compile(r"\(NEEDED\)[^\[]*\[(lib\w+)\.so")
-# These instructions on x86 and ARM make a system call without a library function.
+# These machine instructions of x86 and ARM processors make a system call without a library function.
 INSTRUCTION = r"[[:space:]](syscall|sysenter|svc)([[:space:]]|$)|int +[$]0x80"
 # At most this number of lines of readelf's output is read; a usual program has about 400 symbols.
 LINES = 2000
@@ -31,8 +31,8 @@ def compile_roscpp(
 ) -> None:
     """Compile `file` to `program` in `folder`, and assert that the result is a roscpp program.
 
-    `limits` is a command of bash that limits the compiler. Raises CheckError if the compiler has not finished
-    after `within` s.
+    `limits` is a bash command that limits the resources of the compiler, such as `ulimit`. Raises CheckError
+    if the compiler has not finished after `within` s.
     """
     line = f"{limits}; exec {shlex.join(compile_command(file, program))}"
     done = folder.command("bash", "-c", line, within=within, worded=f"the compiler, at {file}")

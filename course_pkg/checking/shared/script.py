@@ -21,8 +21,9 @@ def require_shebang(
 ) -> None:
     """Assert that the file's first line is a shebang for `program`, and that it does not use Python 2.
 
-    The last arguments are hints for five mistakes: no shebang, a shebang in another line, another program,
-    Windows line endings, and a byte order mark. `missing` also replaces each hint that is not given.
+    `missing`, `elsewhere`, `another`, `windows` and `mark` are hints for five mistakes: no shebang, a shebang
+    in another line, another program, Windows line endings, and a byte order mark. `missing` also replaces
+    each hint that is not given.
     """
     text = context.source(f"file:{path}")
     first = text.partition("\n")[0]

@@ -1,4 +1,4 @@
-"""The cases of the lab: the number and the options of each case, and the student's answers."""
+"""The cases of the panel "Break it": the number and the options of each case, and the student's answers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from course_pkg.faults.catalogue import every_fault, select
 from course_pkg.faults.fault import Fault
 from course_pkg.panels.store import Store
 
-OPTIONS = 5  # A case has this many diagnoses to choose from, including the right one.
+OPTIONS = 5  # The student chooses from at most this many diagnoses; one of them is right.
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class CaseRecord:
     `key` is the name of the fault, and `tries` is the number of answers.
 
     `first` is True if the first answer was right, and `solved` is True if any answer was right. `shown` is
-    True if the student opened the solution before a right answer.
+    True if the student opened the solution before giving a right answer.
     """
 
     key: str
@@ -41,14 +41,14 @@ class CaseRecord:
 
     @property
     def state(self) -> str:
-        """The state of the case is "new", "wrong", "shown" or "solved"."""
+        """The state of the case, which is "new", "wrong", "shown" or "solved"."""
         if self.solved:
             return "solved"
         return "shown" if self.shown else "wrong" if self.tries else "new"
 
 
 class CaseStore(Store[CaseRecord]):
-    """The student's answers in one file; the key of a record is the name of the fault."""
+    """A file with the student's answers: one CaseRecord for each fault."""
 
     record = CaseRecord
     file = "cases.json"
@@ -56,9 +56,10 @@ class CaseStore(Store[CaseRecord]):
 
 
 def cases(*chosen: str) -> tuple[Case, ...]:
-    """Return the cases of the chosen faults and groups, or all cases, sorted by number.
+    """Return the cases of the chosen faults and groups, sorted by number; by default, return all cases.
 
-    A fault has the same number in every selection. Raises UnknownFault for a name that does not exist.
+    The number of a fault does not depend on the arguments. Raises UnknownFault for a name that does not
+    exist.
     """
     everything = every_fault()
     wanted = set(select(*chosen))
@@ -88,7 +89,7 @@ def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
 
 
 def _could_be(fault: Fault, other: Fault) -> bool:
-    """Return whether the diagnosis of `other` can be a wrong option for `fault`: the symptoms are similar."""
+    """Return whether the diagnosis of `other` is wrong for `fault`, but the symptoms are similar."""
     same = other.name == fault.name or other.name in fault.unlike or fault.name in other.unlike
     return other.look.split()[0] == fault.look.split()[0] and not same
 
@@ -98,5 +99,5 @@ def _shuffled(salt: str, texts: Sequence[str]) -> tuple[str, ...]:
 
 
 def _sort_key(salt: str, text: str) -> str:
-    """Return a key for an order that looks random but is the same in every run."""
+    """Return a sort key; the order looks random but is the same in every run."""
     return hashlib.sha256(f"{salt}: {text}".encode()).hexdigest()

@@ -1,6 +1,6 @@
 """The state of the panel "Break it".
 
-This module runs without a page and without a kernel: the caller passes the functions `stage` and `use`.
+The caller passes the functions `stage` and `use`, so this module needs no ROS graph.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from course_pkg.panels.breakit.state import CaseState, Listed, Overview, Score, 
 from course_pkg.panels.breakit.worker import Worker
 from course_pkg.ros.explain.explanation import taught
 
-STEP = 30.0  # In a recording of a case, each step has this timeout in s.
+STEP = 30.0  # play() waits at most this many s for the fault, and for the output of each tool.
 LOG = 8  # The panel stores the symptom and at most this many outputs of tools.
 
 
 class Scene(Protocol):
-    """A fault that the lab can cause on the graph and undo."""
+    """A fault that the panel can cause on the ROS graph, and undo later."""
 
     keeper: Program | None
 
@@ -41,9 +41,12 @@ SceneType = TypeVar("SceneType", bound=Scene)
 class LabModel(Generic[SceneType]):
     """Causes the fault of a case, shows its symptom, runs tools, checks the answer, and undoes the fault.
 
-    One worker thread makes all changes to the graph, in the order of the calls. The model calls `changed`
-    from any thread, with the keyword arguments `cases`, `score`, `case` and `trouble`. `stage` returns the
-    scene of a fault. `use` runs a tool on a scene and returns its output.
+    One worker thread makes all changes to the graph, in the order of the method calls. After each change, the
+    model calls the function `changed` with some of the keyword arguments `cases`, `score`, `case` and
+    `trouble`. Any thread can call `changed`.
+
+    The function `stage` returns the Scene of a fault. The function `use` runs a tool on a Scene, and returns
+    the output of the tool.
     """
 
     def __init__(
@@ -81,7 +84,7 @@ class LabModel(Generic[SceneType]):
         return {"cases": listed, "score": {"solved": len(solved), "first": first, "of": len(listed)}}
 
     def open(self, number: int) -> None:
-        """Undo the current fault and cause the fault of case `number`; `changed` receives the symptom."""
+        """Undo the current fault, and cause the fault of case `number`; the panel then shows the symptom."""
         case = self._cases[number]
         with self._turn:
             if self._state.get("phase") in ("causing", "looking"):
@@ -101,7 +104,7 @@ class LabModel(Generic[SceneType]):
         self._worker.do(partial(self._begin, case))
 
     def use(self, tool: str) -> None:
-        """Run a tool on the open case."""
+        """Run the tool `tool` on the fault of the open case."""
         with self._turn:
             if self._state.get("phase") != "ready" or tool not in TOOLS:
                 return
@@ -110,7 +113,7 @@ class LabModel(Generic[SceneType]):
         self._worker.do(partial(self._look, tool))
 
     def answer(self, diagnosis: str, remedy: str) -> None:
-        """Check an answer, and store the result."""
+        """Check the student's answer, and store the result."""
         with self._turn:
             case = self._case
             if case is None or self._settled or diagnosis not in case.diagnoses:
@@ -141,7 +144,7 @@ class LabModel(Generic[SceneType]):
     def play(self, name: str, tools: Iterable[str]) -> None:
         """Cause the fault `name`, run the tools, and undo the fault.
 
-        After this, a saved page shows the outputs of the tools.
+        A saved page, which has no kernel, then shows the outputs of the tools.
         """
         number = next(number for number, case in self._cases.items() if case.fault.name == name)
         self.open(number)
@@ -152,7 +155,7 @@ class LabModel(Generic[SceneType]):
         self.close()
 
     def undo(self) -> None:
-        """Let the worker thread undo the current fault after the running job. The call returns at once."""
+        """Tell the worker thread to undo the current fault when the running job has ended."""
         with self._turn:
             if self._state.get("phase") in ("over", None):
                 return
@@ -232,10 +235,6 @@ def _shown(number: int, tool: str, seen: Seen) -> ToolUse:
 
 
 def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -> Verdict:
-    """Return the result of an answer.
-
-    For a wrong answer, the result contains the symptom that the chosen diagnosis would cause.
-    """
     if right and right_remedy:
         return _solution(fault, "right", "Right.")
     if right:

@@ -17,9 +17,9 @@ class ToolUse(TypedDict):
 
 
 class Verdict(TypedDict, total=False):
-    """The result of an answer, or the solution.
+    """The result for the student's answer, or the solution.
 
-    `server` is the program of the server, if the case has a server.
+    `server` is the text of the server's program, if the case has a server.
     """
 
     state: Literal["right", "half", "wrong", "shown"]

@@ -1,4 +1,4 @@
-"""The still picture of the panel: the cases, and the open case with its description, outputs and result."""
+"""The still picture of the panel "Break it": the list of cases, and the open case."""
 
 from __future__ import annotations
 

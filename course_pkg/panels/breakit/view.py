@@ -17,12 +17,12 @@ HERE = Path(__file__).parent
 
 
 class BreakIt(Panel):
-    """Cases with a real fault on the running graph: the student finds the fault from its symptom.
+    """A panel with cases: each case causes a fault on the running graph, and the student finds this fault.
 
-    `chosen` contains names of faults or of the groups "serving", "calling" and "masters". If `chosen` is
+    `chosen` contains names of faults, or of the groups "serving", "calling" and "masters". If `chosen` is
     empty, the panel shows all cases. The panel undoes a fault when another case begins, when no page shows
-    the panel any more, and when the kernel ends. The page receives the name of the fault only after the
-    student's answer. Raises UnknownFault if a name is neither a fault nor a group.
+    the panel any more, and when the kernel ends. The page receives the solution only after the right answer,
+    or when the student opens the solution. Raises UnknownFault if a name is neither a fault nor a group.
     """
 
     front_end: ClassVar[Path] = HERE / "breakit.js"
@@ -42,9 +42,9 @@ class BreakIt(Panel):
         self.publish(**self._model.overview())
 
     def record(self, cases: Mapping[str, Iterable[str]]) -> None:
-        """Run the tools of some cases, and store the outputs for a page without a kernel.
+        """Run tools on some cases, and store the outputs of the tools for a page without a kernel.
 
-        The page shows the last case.
+        The stored page shows the last case of `cases`.
 
         The keys of `cases` are names of faults, and the values are names of tools: {"stale": ["services",
         "ping"]}.
@@ -53,7 +53,7 @@ class BreakIt(Panel):
             self._model.play(name, tools)
 
     def hidden(self) -> None:
-        """Undo the current fault."""
+        """Undo the current fault, because no page shows the panel any more."""
         self._model.undo()
 
     def received(self, kind: str, content: PageMessage) -> None:
@@ -71,7 +71,7 @@ class BreakIt(Panel):
         self.send({"kind": "taken"})
 
     def close(self) -> None:
-        """Remove the panel from every page and undo the current fault; this takes up to 0.3 s."""
+        """Remove the panel from every page, and wait at most 15 s until the current fault is undone."""
         super().close()
         if hasattr(self, "_model"):  # The attribute is missing if the constructor raised an error.
             self._model.close()

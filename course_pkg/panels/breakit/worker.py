@@ -28,7 +28,7 @@ class Worker:
                 self._thread.start()
 
     def drop(self) -> None:
-        """Remove all waiting jobs from the queue."""
+        """Remove all jobs that have not started from the queue."""
         with self._turn:
             self._jobs.clear()
 

@@ -1,4 +1,4 @@
-"""The default cases of choose(): situations for a topic, a service or an action, each with its reason."""
+"""The default cases of choose(): in each situation, a topic, a service or an action is best."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""The model of the choices panel: the student chooses an option for each case, and then reads the reasons.
-
-This module runs without a kernel.
-"""
+"""The model of the choices panel: the student chooses an option for each case, and then reads the reasons."""
 
 from __future__ import annotations
 
@@ -34,13 +31,14 @@ class Verdict:
 
 @dataclass(frozen=True)
 class ChoiceRecord:
-    """The choices for one table of cases.
+    """The student's choices in one table of cases.
 
     In `chosen` and `first`, the keys are the texts of the cases, and the values are the chosen options.
 
     `compared` is the time (ISO 8601 in UTC) when the reasons were first shown; it is "" before that time.
-    `first` contains the choices at the time `compared`; later choices do not count. `fit` is the number of
-    choices in `first` that were the expected options. `shown` is True while the panel shows the reasons.
+    `first` contains the choices at the time `compared`; later choices do not change `first`. `fit` is the
+    number of choices in `first` that were the expected options. `shown` is True while the panel shows the
+    reasons.
     """
 
     key: str
@@ -54,9 +52,9 @@ class ChoiceRecord:
 
     @property
     def standing(self) -> str:
-        """A sentence with the number of choices.
+        """A sentence that states how many cases have a choice.
 
-        After the comparison, the sentence contains the number of first choices that were expected options.
+        After compare(), the sentence states how many of the first choices were expected options.
         """
         if not self.compared:
             return f"{len(self.chosen)} of {self.cases} cases have an answer."
@@ -64,9 +62,9 @@ class ChoiceRecord:
 
 
 class ChoiceStore(Store[ChoiceRecord]):
-    """The student's choices in one file; each record has a key.
+    """A file with the student's choices: one ChoiceRecord for each table of cases.
 
-    The first edition of the course stored choices in `choices.json`. This class does not use that file.
+    The file `choices.json` belongs to the first edition of the course.
     """
 
     record = ChoiceRecord
@@ -77,7 +75,7 @@ class ChoiceStore(Store[ChoiceRecord]):
 class ChoicesModel:
     """The cases with their options, and the record of the student's choices.
 
-    Raises NotAChoice if the answer of a case is not among the options, or if two cases are equal.
+    Raises NotAChoice if the answer of a case is not among the options, or if two cases have the same text.
     """
 
     def __init__(
@@ -97,7 +95,7 @@ class ChoicesModel:
 
     @property
     def record(self) -> ChoiceRecord:
-        """The stored record, or an empty record."""
+        """The stored record, or an empty record if nothing is stored."""
         fresh = ChoiceRecord(self.key, self.question)
         return replace(self._store.read().get(self.key, fresh), question=self.question, cases=len(self.cases))
 
@@ -125,7 +123,7 @@ class ChoicesModel:
     def compare(self) -> ChoiceRecord:
         """Show the reasons if the student has chosen an option for every case.
 
-        The first call also stores the choices as `first`.
+        The first time, this method also stores the choices in the field `first` of the record.
         """
         record = self.record
         if "" in self.chosen:
@@ -137,7 +135,7 @@ class ChoicesModel:
         return self._store.write(replace(record, shown=True))
 
     def again(self) -> ChoiceRecord:
-        """Hide the reasons and delete the choices, but do not delete `first`."""
+        """Hide the reasons, and delete the current choices; the record's field `first` does not change."""
         return self._store.write(replace(self.record, chosen={}, shown=False))
 
     def _check(self) -> None:

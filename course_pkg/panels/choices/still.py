@@ -1,4 +1,4 @@
-"""The still picture of the choices panel: the cases, the options and, if they are shown, the reasons."""
+"""The still picture of the choices panel: the cases, the options, and the reasons if the panel shows them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from course_pkg.panels.paper import (
     prose,
 )
 
-INDENT = 24.0  # The text of a case begins this many px to the right of its number.
+INDENT = 24.0  # distance in px between the left edges of a case's number and of the case's text
 
 
 def still(state: State) -> str:

@@ -21,7 +21,7 @@ class _First(TypedDict, total=False):
 
     `of` is the number of first choices, and `fit` is the number of first choices that were expected options.
 
-    `now` is True if the current choices are the first choices.
+    `now` is True if the current choices are the same as the first choices.
     """
 
     fit: int
@@ -38,7 +38,7 @@ class _State(TypedDict):
 class Choices(Panel):
     """A table of cases: the student chooses an option for each case, and then reads the reasons.
 
-    The page gets the expected options and the reasons only when the panel shows the reasons.
+    The page does not receive the expected options until the panel shows the reasons.
     """
 
     front_end: ClassVar[Path] = HERE / "choices.js"
@@ -99,8 +99,8 @@ def choose(
 ) -> Choices:
     """Return a panel in which the student chooses one of `options` for each case.
 
-    `key` is `chapter.name`. Each case is a tuple (case, answer, reason). The panel shows text between
-    backticks as code. Without arguments, the panel has ten cases with the options topic, service and action.
-    Raises NotAChoice if an answer is not an option, or if two cases are equal.
+    `key` is `chapter.name`. Each case is a tuple (text, expected option, reason). The panel shows text
+    between backticks as code. By default, the panel has ten cases with the options topic, service and action.
+    Raises NotAChoice if an answer is not an option, or if two cases have the same text.
     """
     return Choices(key, question, options, cases)

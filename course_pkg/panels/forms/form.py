@@ -1,4 +1,4 @@
-"""A message in a form: a tree of strings, the errors in these strings, and a table of the values."""
+"""A message as a form: a string for each field, the errors in these strings, and a table of the values."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TypeAlias, TypedDict
 from course_pkg.errors import FieldError
 from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-# An array with more elements than this is shown as one line of text, without separate input fields.
+# An array with more than CONTROLS elements is shown as one line of text, without separate input fields.
 CONTROLS = 16
 LIMIT = 200  # A table has at most this many rows.
 ELEMENTS = 32  # A table shows at most this many elements of an array.
@@ -20,15 +20,15 @@ Values: TypeAlias = Mapping[str, Plain]
 
 
 class Check(TypedDict, total=False):
-    """The result of checking a form: an error for each wrong field, or the equivalent commands.
+    """The result of checking a form: an error for each wrong field, or commands that send the same values.
 
-    `refused` is the number of clicks on a button that the form refused. The page compares `refused` with its
-    previous value to notice a refused click.
+    `refused` counts the clicks that had no effect because a field was wrong. The page compares `refused` with
+    the previous value to notice such a click.
     """
 
     errors: dict[str, str]
     refused: int
-    shell: str  # The equivalent terminal commands for a service call.
+    shell: str  # Terminal commands that make the same service call.
     python: str
     once: str  # The terminal command that publishes one message.
     often: str
@@ -47,7 +47,7 @@ class Row(TypedDict):
 
 
 class MessageForm:
-    """The form for a message; `commands` returns the equivalent commands for the form's values."""
+    """The form for a message; the function `commands` returns the commands that send the form's values."""
 
     def __init__(self, message: MessageType, commands: Callable[[Values], Check]) -> None:
         self.message = message
@@ -55,7 +55,7 @@ class MessageForm:
         self._commands = commands
 
     def errors(self, draft: Draft) -> dict[str, str]:
-        """Return the error messages; the keys are field paths.
+        """Return the error message of each wrong field; the keys are the paths of the fields.
 
         Each top-level field has at most one message.
         """
@@ -69,7 +69,7 @@ class MessageForm:
         return wrong
 
     def checked(self, draft: Draft) -> Check:
-        """Return the errors of the form, or the equivalent commands if there are no errors."""
+        """Check the form; return its errors, or the commands that send the form's values."""
         try:
             values = self.values(draft)
         except FieldError:
@@ -84,7 +84,7 @@ class MessageForm:
         return self.message.parse({**self.blank, **draft})
 
     def filled(self, draft: Draft, values: Values) -> Draft:
-        """Return a copy of the draft with these values.
+        """Return a copy of `draft` in which `values` replace the previous texts.
 
         Raises FieldError if a value is not valid for its field.
         """
@@ -92,7 +92,7 @@ class MessageForm:
         return {**draft, **{name: formatted[name] for name in values}}
 
     def formatted(self, values: Values) -> Draft:
-        """Return values as strings for the input fields of the form."""
+        """Return `values` as strings for the input fields of the form."""
         return compact(self.message.fields, self.message.format(values))
 
 
@@ -103,9 +103,9 @@ def correction(error: FieldError) -> str:
 
 
 def compact(fields: Sequence[Field], strings: Mapping[str, StringTree]) -> Draft:
-    """Return a copy with each time as a number of seconds, and with each long array as one line.
+    """Return a copy of `strings` in which a time is one number of seconds, and a long array is one line.
 
-    Only arrays of numbers or booleans become one line.
+    Only a long array of numbers or booleans is changed into one line of text.
     """
     return {field.name: _compact(field, strings[field.name]) for field in fields}
 

@@ -45,14 +45,13 @@ def _controls(
 
 
 def _flat(given: object) -> str:
-    """Return an element of an array as one line of text."""
     if isinstance(given, Mapping):
         return f"{{{', '.join(f'{name}: {_flat(each)}' for name, each in given.items())}}}"
     return given if isinstance(given, str) else f"[{', '.join(map(_flat, given))}]"  # type: ignore[call-overload]
 
 
 def draw_values(paper: Paper, rows: Sequence[State], empty: str) -> None:
-    """Draw a message as a table."""
+    """Draw the values of a message as a table."""
     columns = [Column(EDGES, 180, CODE), Column(210, 400, CODE), Column(620, 124, FAINT_CODE)]
     if not rows:
         paper.write(empty, FAINT)
@@ -64,7 +63,7 @@ def draw_values(paper: Paper, rows: Sequence[State], empty: str) -> None:
 
 
 def draw_commands(paper: Paper, title: str, commands: Sequence[tuple[str, str]]) -> None:
-    """Draw the equivalent commands; draw nothing if there are no commands."""
+    """Draw each text of `commands` with its label; draw nothing if all texts are empty."""
     shown = [(label, text) for label, text in commands if text]
     if shown:
         paper.write(title, HEADING)

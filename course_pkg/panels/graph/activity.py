@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 LONG, SHORT = 30.0, 3.9
 LEAST = 1.5  # A rate that was measured over a shorter time than this (s) is not reliable.
 LATE = 0.05  # A busy node may report its counts with a delay of up to this many s.
-SHOWN = 12  # The details list at most this many connections of a topic, or callers of a service.
+SHOWN = 12  # The page lists at most this many connections of a topic, or callers of a service.
 UNCONNECTED = "not connected: check that both have the same type"
 
 Key = tuple[str, str, str, int]
@@ -47,7 +47,7 @@ class CallLine(TypedDict):
 
 
 class ActivityState(TypedDict, total=False):
-    """The activity that the page shows; the keys of each dict are the keys of shapes.
+    """The rates and calls that the page shows; each key is the key of a Shape, such as "topic /chatter".
 
     `notes` are the short texts below the names of topics, with at most 12 letters each. `details` contains
     pairs of a label and a value. `callers` lists the nodes that called each service. If a server does not
@@ -61,14 +61,14 @@ class ActivityState(TypedDict, total=False):
 
 
 class RateMeter:
-    """Measures the rate of one connection."""
+    """Measures the message rate of one connection between a publisher and a subscriber."""
 
     def __init__(self) -> None:
         self._counts: deque[tuple[float, int]] = deque()
         self._shown: float | None = None
 
     def read(self, at: float, messages: int) -> None:
-        """Add a count: the number of messages from the beginning until the time `at` (s)."""
+        """Add a count: `messages` is the number of messages on the connection until the time `at` (s)."""
         if self._counts and messages < self._counts[-1][1]:
             # The count is smaller than the previous count: the publisher was restarted, and its new
             # connection has the same id.
@@ -81,11 +81,11 @@ class RateMeter:
 
     @property
     def rate(self) -> float | None:
-        """Messages per second, rounded to the reliable digits; None if there are too few counts."""
+        """Messages per second, rounded; None if there are too few counts."""
         return self._shown
 
     def _forget_former_rate(self) -> None:
-        """If the rate has changed, remove all counts from before the change."""
+        """If the rate has changed, remove all counts that are older than the change."""
         at, messages = self._counts[-1]
         recent = [each for each in self._counts if at - each[0] >= SHORT]
         if len(recent) < 2:
@@ -108,7 +108,7 @@ class RateMeter:
 
 
 def plainest(rate: float, tolerance: float) -> float:
-    """Round the rate to 1, 2 or 3 digits: the fewest digits with an error of at most `tolerance`."""
+    """Round `rate` to the fewest significant digits (1 to 3) with an error of at most `tolerance`."""
     if rate <= 0:
         return 0.0
     for digits in range(3):
@@ -132,14 +132,17 @@ class Rates:
         self._meters: dict[Key, RateMeter] = {}
 
     def read(self, activity: Activity) -> None:
-        """Add all counts that were read at the same time, and remove connections that have ended."""
+        """Add the counts in `activity`, which were read at the same time.
+
+        Connections that are not in `activity` have ended and are removed.
+        """
         meters = {_key(each): self._meters.get(_key(each)) or RateMeter() for each in activity.traffic}
         for each in activity.traffic:
             meters[_key(each)].read(activity.at, each.messages)
         self._meters = meters
 
     def of(self, carried: Traffic) -> float | None:
-        """Return the rate of a connection (Hz), or None if it is not known yet."""
+        """Return the rate of a connection (Hz), or None if the rate is not known yet."""
         meter = self._meters.get(_key(carried))
         return meter.rate if meter else None
 
@@ -149,7 +152,7 @@ def _key(carried: Traffic) -> Key:
 
 
 class _Ends:
-    """The publishers and the subscribers of each topic of a picture; the keys are the keys of the topics."""
+    """Two dicts with the publishers and subscribers of each topic; the keys are the keys of the topics."""
 
     def __init__(self, picture: Picture) -> None:
         self.publishers: dict[str, list[str]] = defaultdict(list)
@@ -160,7 +163,7 @@ class _Ends:
 
 
 class GraphActivity:
-    """Computes the activity for the page from repeated counts of messages and calls."""
+    """Turns repeated counts of messages and calls into an ActivityState for the page."""
 
     def __init__(self) -> None:
         self.seen: Activity | None = None
@@ -168,7 +171,7 @@ class GraphActivity:
         self._carried: dict[str, list[Traffic]] = defaultdict(list)
 
     def read(self, activity: Activity) -> None:
-        """Add all counts that were read at the same time."""
+        """Add the counts in `activity`, which were read at the same time."""
         self.seen = activity
         self._rates.read(activity)
         self._carried.clear()
@@ -176,11 +179,11 @@ class GraphActivity:
             self._carried[each.topic].append(each)
 
     def state(self, picture: Picture, alive: Container[str], box: Callable[[str], str]) -> ActivityState:
-        """Return the activity for the page.
+        """Return the ActivityState for the page.
 
         `alive` contains the names of all nodes on the graph, including nodes that the panel does not show.
-        `box` returns the key of the visible shape for the key of any shape: a folded namespace replaces the
-        shapes in it.
+        The function `box` returns the key of the visible shape for the key of any shape. For a shape in a
+        folded namespace, the visible shape is the box of the namespace.
         """
         ends = _Ends(picture)
         topics = {each.key: self._topic(each, ends) for each in picture.shapes if each.kind is Kind.TOPIC}
@@ -210,10 +213,10 @@ class GraphActivity:
         return note, _shortened(details, "connections")
 
     def _note(self, publishers: list[str], carried: list[Traffic]) -> str:
-        """Return the rate of a topic.
+        """Return the rate of a topic as text.
 
-        For each publisher, only the fastest connection is used. The rate of the topic is the sum of these
-        rates.
+        The rate of a topic is the sum of the rates of its publishers. The rate of a publisher is the highest
+        rate of its connections.
         """
         assert self.seen is not None
         if self.seen.silent.intersection(publishers):

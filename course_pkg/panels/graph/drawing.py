@@ -1,4 +1,4 @@
-"""Draws a layout as SVG."""
+"""Draws a layout of the graph (see layout.py) as SVG."""
 
 from __future__ import annotations
 
@@ -14,8 +14,9 @@ from course_pkg.panels.graph.picture import Kind
 MARGIN = 12.0
 ARROW = 9.0  # An arrowhead is this many px long.
 CORNER = 12.0  # Each of the two pointed ends of a service's shape is this many px wide.
-CARD = 4.0  # A folded namespace has a second rectangle with this offset (px).
-# Distances (px) from the middle of a shape to its name, and to the note below the name.
+CARD = 4.0  # A folded namespace is drawn as two rectangles with this offset (px).
+# ABOVE and BELOW are the distances (px) from the middle of a shape to its name, and to the note below the
+# name.
 ABOVE, BELOW = -7.0, 10.0
 TITLE = 13.0  # The middle of a frame's name is this many px below the top of the frame.
 
@@ -30,8 +31,9 @@ def svg(
 ) -> str:
     """Return the drawing as SVG; `notes` contains the text below the name of each topic.
 
-    In a page, each shape is a button with an accessible name; its attribute `data-key` is the key of the
-    shape. If `still` is True, the result is a complete file with a style sheet and a text alternative.
+    In a page, each shape is a button with an accessible name; the attribute `data-key` of the button is the
+    key of the shape. If `still` is True, the result is a complete file with a style sheet and a text
+    alternative.
     """
     return _Drawing(notes or {}, still).of(layout, title, description)
 
@@ -92,7 +94,8 @@ class _Drawing:
         mark = "▸ " if shape.kind is Kind.SPACE else ""
         name = SubElement(group, "text", _numbers(x=x, y=y + (ABOVE if low else 0)))
         name.text = mark + placed.label
-        # Without this space, a screen reader joins the last word of the name and the first word of the note.
+        # Without a space after the name, a screen reader joins the last word of the name and the first word
+        # of the note.
         name.tail = " "
         if low:
             under = SubElement(group, "text", {"class": "ros-note", **_numbers(x=x, y=y + BELOW)})

@@ -1,4 +1,4 @@
-"""A recording of all states of a graph panel; a page without a kernel can play it."""
+"""Records what a graph panel shows, so that a page without a kernel can play the recording."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ BYTES = 200_000  # The JSON text of a recording has at most this many bytes.
 
 
 class HistoryState(TypedDict, total=False):
-    """A recording for a page; it is empty if nothing has changed.
+    """A recording for the page; the dict is empty if nothing changed during the recording.
 
     `began` is the time of the first entry (s since the epoch), and `length` is the length of the recording
-    (ms). Each entry of `moments` is a tuple: the time in ms since `began`, the index of the scene, and the
+    (ms). Each entry of `moments` is a tuple: the time in ms since `began`, the index in `scenes`, and the
     activity.
     """
 
@@ -54,7 +54,7 @@ class History:
     def start(self, at: float, scene: Scene, activity: ActivityState) -> None:
         """Start a new recording at `at` (s since the epoch).
 
-        The first entry of the recording is the given scene and activity.
+        The first entry of the recording contains `scene` and `activity`.
         """
         self._moments.clear()
         self.running = True
@@ -65,7 +65,7 @@ class History:
         self.running = False
 
     def add(self, at: float, scene: Scene, activity: ActivityState) -> None:
-        """Record that the panel has shown this scene and activity since `at` (s since the epoch)."""
+        """Record that the panel has shown `scene` and `activity` since the time `at` (s since the epoch)."""
         if not self.running:
             return
         sized = self._sized(scene)
@@ -73,7 +73,7 @@ class History:
             last = self._moments[-1]
             if last.sized is sized and last.activity == activity:
                 return
-            at = max(at, last.at)  # A user may have set the system clock back.
+            at = max(at, last.at)  # The times do not decrease, even if a user has set the system clock back.
         self._moments.append(_Moment(at, sized, activity, _size(activity)))
         while len(self._moments) > self._most or self._weight() > self._room:
             self._moments.popleft()

@@ -13,9 +13,9 @@ from course_pkg.errors import DrawingFailed
 from course_pkg.panels.graph.picture import Frame, Kind, Line, Picture, Shape
 
 CHARACTER = 7.3  # A letter of the fixed-width font (12 px) is this many px wide.
-# The heights (px) of the shapes: a shape has one or two lines of text.
+# The height (px) of each kind of shape; a topic and a namespace have two lines of text.
 HEIGHT = {Kind.NODE: 34.0, Kind.TOPIC: 42.0, Kind.SERVICE: 34.0, Kind.SPACE: 46.0}
-# A shape is wider than its name by this many px.
+# ELBOW is the number of px by which each kind of shape is wider than its name.
 ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}
 NOTE = 11 / 12  # The font size of the second line, divided by the font size of the name.
 ROOM = 12  # A topic's shape has space for at least this many letters below the name.
@@ -43,7 +43,7 @@ class _Drawn(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class Placed:
-    """A shape with its centre and size (px), its shortened name, and the optional second line."""
+    """A shape with its centre and size (px), its shortened name, and an optional second line of text."""
 
     shape: Shape
     label: str
@@ -86,9 +86,10 @@ class Layout:
 def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
     """Return the layout that graphviz computes for a picture.
 
-    The arrows point from left to right. If this layout is too wide for a page, the arrows may point from top
-    to bottom. The second layout is used only if its letters are at least 10 % larger. Raises DrawingFailed if
-    graphviz is missing, fails, or takes longer than `timeout` s.
+    The arrows point from left to right. If this layout is too wide for a page, the function also computes a
+    layout with arrows from top to bottom. This second layout is returned only if its letters on the page are
+    more than 1.1 times as large. Raises DrawingFailed if graphviz is missing, fails, or takes longer than
+    `timeout` s.
     """
     if not picture.shapes:
         return Layout()
@@ -208,9 +209,10 @@ def _size(shape: Shape) -> tuple[float, float]:
 
 
 def _note(shape: Shape) -> str:
-    """Return the second line of a shape.
+    """Return the second line of text in a shape.
 
-    For a folded namespace, the line contains the number of its shapes.
+    For a folded namespace, this line states how many nodes, topics and services it contains. For any other
+    shape, the line is empty.
     """
     return dict(shape.facts).get("holds", "") if shape.kind is Kind.SPACE else ""
 

@@ -1,6 +1,6 @@
-"""The state of a graph panel: snapshots of the graph become a drawing and details.
+"""The state of a graph panel: a drawing and details, which are made from snapshots of the ROS graph.
 
-This module uses neither a page nor ROS.
+This module does not need ROS.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from course_pkg.types import Field, message_type, service_type
 if TYPE_CHECKING:
     from course_pkg.ros import Activity, Snapshot
 
-REFUSED = "refused"  # A node has this value of `reach` if it is registered although its process has ended.
+REFUSED = "refused"  # `reach` has this value for a node that is registered although its process has ended.
 SHOWN = 12  # The details of a type list at most this many fields.
 
 Pair = tuple[str, str]  # A pair contains a label and its text.
@@ -56,7 +56,7 @@ class Space(TypedDict):
 
 
 class Scene(TypedDict):
-    """The large, rarely changing values of the panel's state."""
+    """The values of the panel's state that are large and change rarely."""
 
     drawing: str
     facts: list[Fact]
@@ -72,7 +72,7 @@ def facts(picture: Picture, describe: Describe) -> list[Fact]:
 
 
 def fields_of(kind: Kind, name: str) -> list[Pair]:
-    """Return the fields of the type of a topic or service, as pairs of a label and a text."""
+    """Return the fields of the type `name`, as pairs of a label and a text."""
     try:
         if kind is Kind.TOPIC:
             return [("fields", _field_list(message_type(name).fields))]
@@ -103,7 +103,7 @@ def _field_list(fields: Iterable[Field]) -> str:
 
 def _entry(shape: Shape, fields: list[Pair]) -> Fact:
     kept = list(shape.facts)
-    # The fields come directly after the label "type".
+    # In the details, the fields come directly after the pair with the label "type".
     at = next((number for number, (label, _) in enumerate(kept, start=1) if label == "type"), 0)
     return {
         "key": shape.key,
@@ -115,11 +115,12 @@ def _entry(shape: Shape, fields: list[Pair]) -> Fact:
 
 
 class GraphModel:
-    """Turns snapshots into a drawing; the graph is drawn again only if the picture has changed.
+    """Turns snapshots of the ROS graph into a drawing; a new drawing is made only after a change.
 
-    `changed` is called with keyword arguments: `drawing` (SVG, or "" if graphviz cannot draw), `facts` (the
-    details of each shape and namespace), `spaces` (the shown namespaces), `activity` (see ActivityState), and
-    `trouble` (an error message, or ""). `own` is the kernel's node; the reader can hide this node.
+    The model calls the function `changed` with the keyword arguments `drawing` (SVG, or "" if graphviz cannot
+    draw), `facts` (the details of each shape and namespace), `spaces` (the shown namespaces), `activity` (see
+    ActivityState), and `trouble` (an error message, or ""). `own` is the name of the node that runs in the
+    kernel; the reader can hide this node.
     """
 
     def __init__(
@@ -221,14 +222,13 @@ class GraphModel:
         return self._counts.state(self._whole, alive, self._box)
 
     def _box(self, key: str) -> str:
-        """Return the key of the visible shape: this shape, or the folded namespace that contains it."""
+        """Return `key`, or the key of the folded namespace that hides the shape with this key."""
         boxes = [each for each in (self._shown or Picture()).shapes if each.kind is Kind.SPACE]
         name = key.split(" ", 1)[1]
         return next((each.key for each in boxes if name.startswith(each.name)), key)
 
 
 def _spaces(shown: Picture) -> list[Space]:
-    """Return all visible namespaces, as frames or as boxes."""
     frames = {each.name for each in shown.frames}
     boxes = {each.name for each in shown.shapes if each.kind is Kind.SPACE}
     return [{"name": name, "folded": name in boxes} for name in sorted(frames | boxes)]

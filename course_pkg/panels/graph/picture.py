@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from course_pkg.ros import Snapshot
 
-CROWD = 30  # If a picture has more shapes than this, its namespaces are folded at first.
+CROWD = 30  # If a picture has more shapes than this, namespaces are folded until the reader unfolds them.
 NOISE_NODES = frozenset({"/rosout"})
 NOISE_TOPICS = frozenset({"/rosout", "/rosout_agg"})
 NOISE_SERVICES = ("/get_loggers", "/set_logger_level")
@@ -39,7 +39,7 @@ class Shape:
 
     @property
     def key(self) -> str:
-        """The kind and the name; a topic and a service can have the same name."""
+        """The kind and the name of the shape, because a topic and a service can have the same name."""
         return f"{self.kind.value} {self.name}"
 
 
@@ -191,8 +191,8 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
         for name, members in spaces.items()
         if choices.get(name, crowded and 2 * len(members) <= len(picture.shapes))
     }
-    # The names are sorted from long to short, so the entry of an outer namespace overwrites the entry of an
-    # inner namespace. Therefore, a shape in two folded namespaces belongs to the box of the outer namespace.
+    # A shape in two folded namespaces belongs to the box of the outer namespace. The names are sorted from
+    # long to short, so the outer namespace replaces the inner namespace in `box`.
     box = {key: name for name in sorted(closed, key=len, reverse=True) for key in spaces[name]}
 
     def shown(key: str) -> str:
@@ -209,7 +209,7 @@ def namespaces(picture: Picture) -> dict[str, frozenset[str]]:
 
     Only namespaces with at least two shapes are returned.
 
-    If several namespaces have the same shapes, only the innermost one is returned.
+    If several namespaces have the same shapes, only the innermost of these namespaces is returned.
     """
     found: dict[str, set[str]] = {}
     for shape in picture.shapes:
@@ -228,7 +228,7 @@ def space(name: str, picture: Picture, members: frozenset[str]) -> Shape:
     inside = [each for each in picture.shapes if each.key in members]
     kinds = {kind: [each.name for each in inside if each.kind is kind] for kind in PLURALS}
     facts = [("holds", ", ".join(_count(kind, len(names)) for kind, names in kinds.items() if names))]
-    # Topics are left out here, because activity.py adds the topics with their rates.
+    # The details of a namespace do not list the topics, because activity.py adds the topics with their rates.
     facts += [(PLURALS[kind], ", ".join(kinds[kind])) for kind in (Kind.NODE, Kind.SERVICE) if kinds[kind]]
     if lost := [each.name for each in inside if not each.reachable]:
         facts.append(("does not answer", ", ".join(lost)))

@@ -36,7 +36,8 @@ def still(state: State) -> str:
     wide, high = (float(root.get(side, "0")) for side in ("width", "height"))
     paper = Paper(f"The ROS graph: {counts}", max(WIDTH, wide + 2 * EDGES))
     scale = 1.0
-    if wide + 2 * EDGES > 2 * WIDTH:  # The letters of a wider picture would be too small to read.
+    # The picture has at most twice the standard width; a wider drawing is scaled down.
+    if wide + 2 * EDGES > 2 * WIDTH:
         scale = (2 * WIDTH - 2 * EDGES) / wide
         paper.width = 2 * WIDTH
     if trouble:
@@ -92,7 +93,10 @@ def _roles(state: State) -> str:
 
 
 def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
-    """Return a copy with colours as attributes, without the elements that only an interactive page needs."""
+    """Return a copy of `element` for a still picture.
+
+    In the copy, colours are attributes, and elements that only an interactive page needs are left out.
+    """
     own = frozenset(element.get("class", "").split())
     around = classes | own
     tag = _tag(element)
@@ -101,7 +105,7 @@ def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
     made.text = NUMBERED.sub("…", element.text or "") if tag == "text" else None
     made.extend(_plain(child, around) for child in element if not _only_live(child))
     if "ros-topic" in own:
-        # The copy has no rate below the name, so the name moves to the middle.
+        # In the still picture, a topic has no rate below its name, so the name moves to the middle.
         for name in made.findall("text"):
             name.set("y", number(float(name.get("y", "0")) - ABOVE))
     return made

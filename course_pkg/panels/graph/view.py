@@ -16,7 +16,7 @@ from course_pkg.panels.poller import Poller
 from course_pkg.ros import Activity, ActivityPoller, Node, Snapshot, look, this_node
 
 HERE = Path(__file__).parent
-SILENT = "silent"  # A node has this value of `reach` if it accepts connections but does not answer.
+SILENT = "silent"  # `reach` has this value for a node that accepts connections but does not answer.
 PAUSE = 2.0  # PAUSE is the time in s between two readings of the nodes' counters.
 
 
@@ -25,8 +25,8 @@ class GraphPanel(Panel):
 
     The panel updates the picture while a page shows the panel. If `live` is False, the panel keeps the first
     picture. The picture shows the rates of topics and the latest callers of services. If `noise` is True, the
-    picture also shows /rosout and the logger services of every node. `node` is the kernel's own node; the
-    reader can hide this node. By default, `node` is the node of join(). The panel records all pictures, so
+    picture also shows /rosout and the logger services of every node. `node` is the node in the kernel, by
+    default the node that join() created; the reader can hide this node. The panel records all pictures, so
     that a page without a kernel can play them.
     """
 

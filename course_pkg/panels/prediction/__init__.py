@@ -1,1 +1,1 @@
-"""The prediction panels: the student predicts a result, and then compares it with the run."""
+"""The prediction panels: the student predicts the result of a program, and then sees the real result."""

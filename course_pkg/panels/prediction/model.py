@@ -1,7 +1,4 @@
-"""The model of a prediction: the student's answer before the run, and the result of the run.
-
-This module runs without a page and without a kernel.
-"""
+"""The model of a prediction: the student's answer before a program runs, and the real result."""
 
 from __future__ import annotations
 
@@ -14,11 +11,11 @@ from course_pkg.state import now
 
 @dataclass(frozen=True)
 class Prediction:
-    """A prediction with the student's answer and, after the comparison, the result.
+    """A prediction with the student's answer and, after the comparison, the real result.
 
-    Times are ISO 8601 in UTC; "" means that there is no answer or no comparison yet. `answer` is the latest
-    answer. `first` is the answer at the time of the comparison. If `answer` differs from `first`, the student
-    changed the answer later.
+    `answered` and `compared` are times (ISO 8601 in UTC), or "" before the answer and the comparison.
+    `answer` is the latest answer. `first` is the answer at the time of the comparison. If `answer` differs
+    from `first`, the student changed the answer later.
     """
 
     key: str
@@ -59,10 +56,9 @@ class Prediction:
 
 
 class PredictionStore(Store[Prediction]):
-    """The predictions in one file; each record has a key.
+    """A file with the student's predictions: one Prediction for each key.
 
-    The first edition of the course stored predictions in `predictions.json`, with other chapter numbers.
-    Therefore, this class does not use that file.
+    The file `predictions.json` belongs to the first edition of the course, which had other chapter numbers.
     """
 
     record = Prediction
@@ -71,7 +67,7 @@ class PredictionStore(Store[Prediction]):
 
 
 class PredictionModel:
-    """A prediction and the record of its answer."""
+    """A question with its choices, and the student's stored prediction."""
 
     def __init__(self, key: str, question: str, choices: Iterable[str], store: PredictionStore) -> None:
         self.key = key
@@ -81,7 +77,7 @@ class PredictionModel:
 
     @property
     def record(self) -> Prediction:
-        """The stored record, or an empty record."""
+        """The stored prediction, or an empty prediction if nothing is stored."""
         return self._store.read().get(self.key, Prediction(self.key, self.question))
 
     def answer(self, answer: str) -> Prediction:
@@ -93,7 +89,7 @@ class PredictionModel:
         )
 
     def compare(self, actual: object) -> Prediction:
-        """Store the result of the run; the current answer becomes the prediction."""
+        """Store `actual`, the real result; the current answer is stored as `first`."""
         record = self.record
         if record.compared and record.actual == str(actual):
             return record

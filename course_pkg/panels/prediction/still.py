@@ -1,4 +1,4 @@
-"""The still picture of a question, a comparison, or the table of a chapter."""
+"""The still picture of a question, of a comparison, or of a table of predictions."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ MARKS = {"✓": GOOD, "✗": ERROR}
 
 
 def still(state: State) -> str:
-    """Return the picture of the panel: a question before the run, a comparison, or a table."""
+    """Return the picture of the panel: a question, a comparison, or a table of predictions."""
     part = state["part"]
     if part == "question":
         return _question(state)

@@ -1,7 +1,7 @@
-"""The widgets of predictions.
+"""The widgets for predictions: a question, a comparison, and a table.
 
-The text/plain output of the widgets is the same for every student, so notebooks can be compared. Only the
-widget shows the student's answer.
+The text/plain output of the widgets is the same for every student, so the outputs of two notebooks can be
+compared. Only the widget shows the student's answer.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class _PredictionPanel(Panel):
 
 
 class Question(_PredictionPanel):
-    """A panel with a question before the run.
+    """A panel that asks a question before the student runs a program.
 
     The student selects one of `choices`; if `choices` is empty, the student types any text.
     """
@@ -84,7 +84,7 @@ class Question(_PredictionPanel):
         )
 
     def compare(self, actual: object) -> Comparison:
-        """Store the result of the run, and show it next to the prediction."""
+        """Store `actual`, the real result, and return a panel that shows it next to the prediction."""
         record = self._model.compare(actual)
         self.publish(compared=True)
         return Comparison(record)
@@ -100,7 +100,7 @@ class Question(_PredictionPanel):
 
 
 class Comparison(_PredictionPanel):
-    """The prediction and the result of the run, side by side."""
+    """A panel that shows the prediction next to the real result."""
 
     record = Dict().tag(sync=True)
 
@@ -139,7 +139,9 @@ class Predictions(_PredictionPanel):
 
 
 def predict(key: str, question: str, choices: Sequence[str] = ()) -> Question:
-    """Return a panel with a question before the run. Without choices, the student may type any text.
+    """Return a panel that asks `question` before a program runs.
+
+    If `choices` is empty, the student types any text.
 
     `key` consists of a chapter and a name, such as "05.reply_none".
     """

@@ -1,6 +1,6 @@
-"""The state of a service panel; this module uses no page, no kernel and no ROS.
+"""The state of a service panel; this module does not need ROS.
 
-`connect` is a function that returns a Caller.
+The argument `connect` of ServiceModel is a function that returns a Caller for one service.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class Caller(Protocol):
 
 @dataclass(frozen=True)
 class Offer:
-    """A service on the graph: its name, the name of its type ("" if it is unknown), and its node."""
+    """A service on the graph: its name, the name of its type ("" if it is unknown), and the server's node."""
 
     name: str
     type: str
@@ -70,9 +70,9 @@ class _Fresh(TypedDict):
 class ServiceModel:
     """Selects a service, checks the form, calls the service, and stores a history of the calls.
 
-    The model calls `changed` after each change, and in each phase of a call. The keyword arguments of
-    `changed` are `services`, `form`, `draft`, `check`, `outcome` and `history`. The model acquires the lock
-    `turn` for each change of its state, but not for a call.
+    After each change, and in each phase of a call, the model calls the function `changed` with some of the
+    keyword arguments `services`, `form`, `draft`, `check`, `outcome` and `history`. The model holds the lock
+    `turn` while it changes its state, but not while it waits for a response.
     """
 
     def __init__(
@@ -100,9 +100,9 @@ class ServiceModel:
         self._problem = ""
 
     def offer(self, offers: Iterable[Offer]) -> None:
-        """Store the services on the graph.
+        """Store the list of the services that are on the graph.
 
-        The selection does not change, even if the selected service has left the graph.
+        The selected service stays selected, even if it has left the graph.
         """
         with self._turn:
             self.offers = tuple(sorted(offers, key=lambda each: (each.tool, each.name)))
@@ -124,7 +124,7 @@ class ServiceModel:
                 self._changed(outcome={"phase": "idle"}, **self._fresh())
 
     def edit(self, draft: Draft) -> None:
-        """Store the texts of the form; report their errors, or the equivalent commands."""
+        """Store the texts of the form; report their errors, or the commands that make the same call."""
         with self._turn:
             if self.form:
                 self.draft = draft
@@ -154,9 +154,10 @@ class ServiceModel:
         threading.Thread(target=self._finish, args=(call,), daemon=True, name="panel-call").start()
 
     def call(self, deadline: str) -> Outcome:
-        """Call the service on this thread with the request in the form.
+        """Call the service with the request in the form, on the thread that calls this method.
 
-        Raises the same errors as the service call.
+        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin. Raises the error of the
+        call if the call fails.
         """
         with self._turn:
             form = self._need_form()
@@ -171,7 +172,7 @@ class ServiceModel:
         return outcome
 
     def record(self, inputs: Iterable[Values], deadline: str) -> list[Entry]:
-        """Call the service once for each of `inputs`; return the entries of the history for saved pages."""
+        """Call the service once for each of `inputs`; return an entry with the outcome for each call."""
         kept: list[Entry] = []
         for values in inputs:
             with self._turn:
@@ -197,7 +198,6 @@ class ServiceModel:
         return next((each for each in self.offers if each.name == self.service), None)
 
     def _type_changed(self) -> bool:
-        """Return whether the service's type on the graph differs from the type of the form."""
         found = self._found()
         return bool(found and found.type and (self.form is None or self.form.type.name != found.type))
 

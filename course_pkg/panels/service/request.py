@@ -14,7 +14,7 @@ from course_pkg.types import MessageSchema, Plain, ServiceType, rospy_line, ross
 if TYPE_CHECKING:
     import genpy
 
-DEADLINE = "@deadline"  # A field's name cannot contain "@".
+DEADLINE = "@deadline"  # No field has this name, because a field's name cannot contain "@".
 LONGEST = 3600.0  # s
 
 Phase = Literal["idle", "running", "done", "failed", "cancelled"]
@@ -23,9 +23,7 @@ Phase = Literal["idle", "running", "done", "failed", "cancelled"]
 class FormState(TypedDict, total=False):
     """The selected service, its node and type, and the fields of the form.
 
-    `problem` says why there is no form, and is
-
-    "" if there is a form.
+    `problem` is a message about the service or its type; the message is empty if there is no problem.
     """
 
     service: str

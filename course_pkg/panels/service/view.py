@@ -1,4 +1,4 @@
-"""The widget of the service panel: its traits are the model's state, and a click calls the model."""
+"""The widget of the service panel; its traits contain the model's state, and a click calls the model."""
 
 from __future__ import annotations
 
@@ -74,7 +74,8 @@ class ServicePanel(Panel):
     def call(self, **values: Plain) -> genpy.Message | None:
         """Fill in the form, call the service, and return the response message.
 
-        Raises the same errors as the service call.
+        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin. Raises the error of the
+        call if the call fails.
         """
         self._model.fill(values)
         self._model.call(self.deadline)

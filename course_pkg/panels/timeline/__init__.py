@@ -1,1 +1,1 @@
-"""The timeline panel: the events of a recording, and the times that nodes waited for each other."""
+"""The timeline panel: the events of a recording, and the times during which nodes waited for each other."""

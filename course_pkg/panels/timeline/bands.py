@@ -1,4 +1,4 @@
-"""Joins events that are close to each other into bands; bands.js does this for the page."""
+"""Joins short, neighbouring events into bands for the still picture; bands.js does the same for the page."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from course_pkg.panels.timeline.scene import Event, Scene
 
-# Events are drawn as one band if their widths and the distances between them are less than this (px).
+# Events are drawn as one band if their widths and the distances between them are less than CLOSE px.
 CLOSE = 3.0
 MANY = 5  # A band contains at least this many calls or messages.
 CALLS, REQUESTS = "calls", "requests"
@@ -24,7 +24,7 @@ WHAT = {
 
 @dataclass
 class Band:
-    """A group of close events of one kind: the start and end (px), and the number of calls or messages."""
+    """A group of neighbouring events of one kind; `count` is the number of calls or messages in the group."""
 
     what: str
     kind: str

@@ -1,7 +1,8 @@
-"""The data of a timeline: the events, with a list of numbers for each property, and the rows of each node.
+"""The data of a timeline for the page: one list for each property of the events, and the rows of each node.
 
-A saved page contains all these data, so their size is limited. If there are more than 4,000 events, all calls
-are included first, and then messages up to this limit. A note states how many events are left out.
+A saved page contains all these data, so their size is limited. If a recording has more than 4,000 events, the
+data contain the events of calls first, and then messages, up to this limit. In this case, a note for the
+reader states how many events are missing.
 """
 
 from __future__ import annotations
@@ -32,13 +33,13 @@ if TYPE_CHECKING:
 
 MOST = 4000  # The data contain at most this many events, which take about 200 kB in a saved page.
 KINDS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER, PUBLISH, CALLBACK)
-TICKS = 1e6  # The state has times in whole microseconds, so one second has this many ticks.
-# The end of an event has this value if the event was not finished.
+TICKS = 1e6  # The data contain times in whole microseconds; one second has this many microseconds.
+# The end of an event is OPEN if the event was not finished.
 OPEN = -1
 
 
 class Lane(TypedDict):
-    """A node and the number of its rows."""
+    """A node, and the number of its rows in the timeline."""
 
     node: str
     rows: int
@@ -47,7 +48,7 @@ class Lane(TypedDict):
 class Columns(TypedDict):
     """The events, with one list for each property.
 
-    The lists from `name` to `note` contain indices of `strings`.
+    The lists from `name` to `note` contain indices into the list `strings` of TimelineState.
     """
 
     kind: list[int]
@@ -64,11 +65,10 @@ class Columns(TypedDict):
 
 
 class TimelineState(TypedDict):
-    """A recording for the page; times are in µs from its start.
+    """A recording for the page; times are in µs from the start of the recording.
 
-    The indices of the events refer to the list `strings`. `arrows` contains pairs of indices of events.
-    `idle` contains the nodes without an event. `unrecorded` contains the nodes that could not be recorded,
-    each with the reason.
+    `arrows` contains a pair of event indices for each arrow. `idle` contains the nodes without an event.
+    `unrecorded` contains the nodes that could not be recorded, each with the reason.
     """
 
     length: int
@@ -133,7 +133,7 @@ def state(recording: Recording) -> TimelineState:
 
 @dataclass
 class _Thread:
-    """The events of one thread of a node, as indices."""
+    """The indices of the events of one thread of a node."""
 
     numbers: list[int] = field(default_factory=list)
     start: float = math.inf
@@ -157,7 +157,7 @@ def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
     for number, event in enumerate(events):
         nodes[event.node][event.thread].take(number, event)
     for threads in nodes.values():
-        free: list[float] = []  # Each row is free from this time on.
+        free: list[float] = []  # For each row, the list contains the time from which the row is free.
         for thread in sorted(threads.values(), key=lambda each: each.start):
             row = next((row for row, end in enumerate(free) if end < thread.start), len(free))
             free[row : row + 1] = [thread.end]
@@ -179,7 +179,7 @@ def _end(event: Event) -> float:
 
 
 def arrows(events: Sequence[Event]) -> list[list[int]]:
-    """Return [from, to] for each request, response and message with both ends in the recording."""
+    """Return a pair of event indices for each request, response and message that was sent and received."""
     parts: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
     for number, event in enumerate(events):
         parts[event.key][event.kind].append(number)
@@ -195,7 +195,7 @@ def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[in
     """
     found = [[message, callback] for message in part[PUBLISH] for callback in part[CALLBACK]]
     for handler in part[HANDLER]:
-        # The client may have sent the request before the recording began.
+        # If the client sent the request before the recording began, the arrow begins at the client's wait.
         found += [[caller, handler] for caller in (part[REQUEST] or part[WAIT])[:1]]
         answers = [number for number in (*part[RESPONSE], *part[ERROR]) if events[number].peer]
         found += [[handler, answer] for answer in answers if events[handler].end is not None]

@@ -1,4 +1,4 @@
-"""Draws a timeline as a still picture of the whole recording, like timeline.js on its canvas."""
+"""Draws the whole recording of a timeline as a still picture; timeline.js draws it in the browser."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ WAIT, WAIT_EDGE = "#fbe6e4", "#b0342c"
 CALLBACK, CALLBACK_EDGE = "#cfe0f7", "#3a6fb5"
 WORD, NAME = Style(11.0), Style(12.0, bold=True)
 NAMES = {"lookup": "look-up", "connect": "connect", "request": "request", "publish": "publish"}
-MARK = 14.0  # px: a narrower event is drawn as a small symbol, and a wider event as a bar with a text
+MARK = 14.0  # An event with a width of less than this (px) can be drawn as a small symbol instead of a bar.
 # Minimum distance in px between two arrows of messages (True) or of calls (False). Arrows that are closer to
 # each other are not drawn.
 APART = {True: 8.0, False: 3.0}
@@ -184,7 +184,6 @@ def _words(event: Event) -> Iterator[str]:
 
 
 def _colours(kind: str) -> tuple[str, str]:
-    """Return the fill colour and the edge colour of an event."""
     if kind in BLOCKED:
         return WAIT, WAIT_EDGE
     return (CALLBACK, CALLBACK_EDGE) if kind in ("callback", "publish") else (HANDLER, HANDLER_EDGE)

@@ -20,7 +20,7 @@ HERE = Path(__file__).parent
 class Timeline(Panel):
     """A sequence diagram of a recording: each node has rows, and time runs from left to right.
 
-    The argument is the recording of a block that has ended: `with node.record() as recording: …`.
+    `recording` comes from a block `with node.record() as recording: …` that has ended.
     """
 
     front_end: ClassVar[Path] = HERE / "timeline.js"

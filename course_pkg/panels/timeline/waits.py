@@ -42,7 +42,7 @@ class Stream(TypedDict):
 
 
 class Waits(TypedDict):
-    """The calls, with the longest wait first, and the streams of messages."""
+    """The calls, sorted by their total waiting time (longest first), and the messages on each topic."""
 
     calls: list[Wait]
     streams: list[Stream]
@@ -51,7 +51,7 @@ class Waits(TypedDict):
 def waits_of(recording: Recording) -> Waits:
     """Return the waits of a recording.
 
-    An unfinished wait ends at the end of the recording.
+    A wait that is not finished is counted up to the end of the recording.
     """
     calls: dict[tuple[str, str], list[Event]] = defaultdict(list)
     streams: dict[tuple[str, str], list[Event]] = defaultdict(list)

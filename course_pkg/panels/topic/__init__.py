@@ -1,1 +1,1 @@
-"""The topic panel: it publishes and receives messages, and explains the result for each message."""
+"""The topic panel: it publishes and receives messages, and shows which nodes got a published message."""

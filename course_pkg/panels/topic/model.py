@@ -1,6 +1,7 @@
-"""The state of a topic panel; this module uses neither a page nor ROS.
+"""The state of a topic panel; this module does not need ROS.
 
-The panel's topic process receives commands and sends reports.
+The publisher and the subscriber run in a separate process (the topic process), which receives commands from
+the panel and sends reports to the panel.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ ACTIONS = ("publish", "burst", "repeat")
 class About(TypedDict, total=False):
     """The topic, and the fields of its type; the page can plot the numeric fields.
 
-    `problem` says why there is no form, and is "" if there is a form.
+    `problem` is the reason that there is no form; it is empty if there is a form.
     """
 
     topic: str
@@ -51,11 +52,11 @@ class About(TypedDict, total=False):
 class TopicModel:
     """One topic: its type, the message in the form, the publisher's settings, and the received messages.
 
-    `kind` is the type of the messages. If `kind` is None, the panel uses the type of the first publisher. The
-    model calls `changed` after each change. The keyword arguments of `changed` are `about`, `settings`,
-    `draft`, `check`, `connections`, `publisher`, `subscription`, `messages`, `latest`, `curve` and `trouble`.
-    `command` sends a command to the topic process, if there is one. Raises NotATopic if `topic` is not a
-    valid name.
+    `kind` is the type of the messages. If `kind` is None, the panel uses the type of the first publisher.
+    After each change, the model calls the function `changed` with some of the keyword arguments `about`,
+    `settings`, `draft`, `check`, `connections`, `publisher`, `subscription`, `messages`, `latest`, `curve`
+    and `trouble`. The function `command` sends a command to the topic process, if the process is running.
+    Raises NotATopic if `topic` is not a valid name.
     """
 
     def __init__(
@@ -104,7 +105,7 @@ class TopicModel:
             self._send_type()
 
     def report(self, report: Report) -> None:
-        """Store a report of the topic process."""
+        """Store a report that the topic process has sent."""
         with self._turn:
             self._own = report.get("node", self._own)
             if "connections" in report:
@@ -141,7 +142,7 @@ class TopicModel:
             self._changed(connections=seen, about=self._about())
 
     def edit(self, draft: Draft) -> None:
-        """Store the texts of the form; report their errors, or the equivalent commands."""
+        """Store the texts of the form; report their errors, or the commands that publish the same message."""
         with self._turn:
             if self._form:
                 self.draft = draft
@@ -187,7 +188,7 @@ class TopicModel:
         self._command("withdraw")
 
     def _checked(self) -> Check:
-        """Return the errors of the form, or the equivalent commands."""
+        """Return the errors of the form, or the commands that publish the same message."""
         if not self._form:
             return {"errors": {}, "refused": self._refusals}
         check = self._form.checked(self.draft)
@@ -215,7 +216,10 @@ class TopicModel:
         }
 
     def _type_on_the_graph(self) -> str:
-        """Return the type of a publisher. If there is no publisher, return the type that the master knows."""
+        """Return the name of the type that a publisher uses.
+
+        If there is no publisher, return the name of the type that the master knows.
+        """
         types = [each["type"] for each in self._connections.get("publishers", ())]
         known = (*types, self._connections.get("type", ""))
         return next((each for each in known if each and each != ANY), "")

@@ -125,7 +125,7 @@ def _rate(report: PublisherReport) -> str:
 def mismatches(kind: MessageType, connections: Connections, own: str, find: FindType) -> list[str]:
     """Return a sentence for each node that uses another type than `kind`.
 
-    rospy does not report this error.
+    rospy does not report that the types differ.
     """
     sources = {source["node"]: source for source in connections.get("sources", ())}
     return [

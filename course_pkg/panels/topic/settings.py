@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from course_pkg.errors import FieldError
 
-RATE, QUEUE = "@rate", "@queue"  # A field's name cannot contain "@".
+RATE, QUEUE = "@rate", "@queue"  # No field has these names, because a field's name cannot contain "@".
 SLOWEST, FASTEST = 0.1, 100.0  # 1/s
-LONGEST = 10_000  # A publisher's queue has at most this many messages.
+LONGEST = 10_000  # The student can set the queue size of the publisher to at most this many messages.
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,7 @@
-"""The widget of the topic panel. A topic process runs while a page shows the panel."""
+"""The widget of the topic panel.
+
+While a page shows the panel, a separate process publishes and receives messages.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +27,8 @@ class TopicPanel(Panel):
     """A form for publishing on a topic, once or at a rate, and a view of the received messages.
 
     `kind` is the type, such as "std_msgs/Float64". If `kind` is None, the panel uses the type of the first
-    publisher. While a page shows the panel, the panel has a separate node. Raises UnknownType if there is no
-    such type, and NotATopic if `topic` is not a valid name.
+    publisher. While a page shows the panel, a separate node publishes and receives the messages. Raises
+    UnknownType if there is no such type, and NotATopic if `topic` is not a valid name.
     """
 
     front_end: ClassVar[Path] = HERE / "topic.js"
@@ -55,14 +58,14 @@ class TopicPanel(Panel):
         self.observe(self._edited, ["draft", "settings"])
 
     def shown(self) -> None:
-        """Start the panel's node."""
+        """Start the panel's node in a separate process."""
         with self.turn:
             if self._process is None:
                 self._process = TopicProcess(self._topic, self._reported, self._lost)
                 self._model.process_began()
 
     def hidden(self) -> None:
-        """End the panel's node and its publisher."""
+        """End the process in which the panel's node runs."""
         with self.turn:
             process, self._process = self._process, None
         if process is not None:
@@ -83,7 +86,7 @@ class TopicPanel(Panel):
         return f"TopicPanel({self._topic!r})"
 
     def _look(self) -> None:
-        """Find the nodes on the topic, so that a saved page also shows the nodes."""
+        """Find the publishers and subscribers of the topic once, so that a saved page contains them, too."""
         try:
             self._model.see(find_connections(MasterClient(master_uri()), self._topic))
         except GraphError as error:
@@ -106,7 +109,7 @@ class TopicPanel(Panel):
             if process is not self._process:
                 return
             if report.get("trouble") and process.master != master_uri():
-                self.hidden()  # The kernel now uses another master.
+                self.hidden()  # The kernel now uses another master, so the panel needs a new node.
                 self.shown()
             else:
                 self._model.report(report)

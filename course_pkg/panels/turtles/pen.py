@@ -1,9 +1,9 @@
-"""Derives the state of a turtle's pen from its poses and from the colour under the turtle.
+"""Derives the state of a turtle's pen from the turtle's poses, and from the colour under the turtle.
 
 turtlesim publishes neither the state of the pen nor calls of `clear` and `reset`. However, turtlesim
-publishes the colour of the background or line under the turtle. Under a slow or resting turtle, this colour
-is the colour of the turtle's own line. Under a fast turtle, this colour is the colour in front of the
-turtle's line.
+publishes the colour of the background or line under the turtle. If the turtle is slow or at rest, the
+published colour is the colour of the turtle's own line. If the turtle is fast, the turtle's own line has not
+reached the turtle yet, so the published colour is the colour of the background or of an older line.
 """
 
 from __future__ import annotations
@@ -15,18 +15,19 @@ Colour = tuple[int, int, int]  # The numbers are red, green and blue, from 0 to 
 
 USUAL: Colour = (179, 184, 255)  # Every pen has this colour at the start.
 HOME = 5.544444561  # The first turtle starts at this x and y (m).
-# Up to this speed (m/s), the turtle is always above the line that it draws. The turtle moves 0.8 px per tick,
-# and the pen is 3 px wide.
+# Up to the speed SLOW (m/s), the turtle is always above the line that it draws. At this speed, the turtle
+# moves 0.8 px per tick, and the pen is 3 px wide.
 SLOW = 1.1
 BRISK = 3.0  # Up to this speed (m/s), the turtle is often above the line that it draws.
 STILL = 1e-4  # A turtle is at rest if it moves less than this (m) between two observations.
-# The colour is used only after this many successive observations at rest, or this many in motion.
+# The colour is used only after SETTLED successive observations at rest, or after SETTLED successive
+# observations in motion.
 SETTLED = 2
 
 
 @dataclass(frozen=True)
 class Observation:
-    """A turtle at one time: position (m), angle (rad), speed (m/s), and the colour under it, if known."""
+    """A turtle at one time: position (m), angle (rad), speed (m/s), and the colour below it, or None."""
 
     x: float
     y: float
@@ -36,7 +37,7 @@ class Observation:
 
 
 class Finding(Enum):
-    """A conclusion from one observation about the pen and the background."""
+    """A conclusion from one observation: whether the pen was up, or the lines were erased."""
 
     NOTHING = "nothing"
     UNDRAWN = "undrawn"  # The pen was up since the previous observation.
@@ -63,7 +64,7 @@ class Pen:
     _last: Observation | None = None
 
     def observe(self, seen: Observation) -> Finding:
-        """Store an observation, and return the conclusion about the pen and the background."""
+        """Store the observation `seen`, and return the conclusion from it."""
         last, self._last = self._last, seen
         self.sure = False
         if last is None:

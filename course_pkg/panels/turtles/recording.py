@@ -2,11 +2,12 @@
 
 A row begins with a time (ms since the recording began) and a turtle (its index in `names`):
 
-    (ms, turtle, x, y, theta, colour)  the turtle is at this place: mm, mm, mrad; `colour` is the index in
-                                       `palette` for the line from its previous row, or -1 for no line
-    (ms, turtle, "gone")               the turtle has left
-    (ms, turtle, "undrawn", since)     the turtle has drawn no line since this time, because the pen was up
-    (ms, -1, "cleared")                all lines were erased
+    (ms, turtle, x, y, theta, colour)  the turtle is at x and y (mm) with the angle theta (mrad); the colour
+                                       of the line from the previous position is an index in `palette`, or
+                                       -1 if there is no line.
+    (ms, turtle, "gone")               the turtle has left the simulator.
+    (ms, turtle, "undrawn", since)     the turtle has drawn no line since this time, because the pen was up.
+    (ms, -1, "cleared")                all lines were erased.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ Change = tuple[int, int, str] | tuple[int, int, str, int]
 Row = Place | Change
 
 MOST = 6000  # A recording has at most this many rows, which take about 150 kB in a saved page.
-STEP = (5, 5, 10)  # The units are mm, mm and mrad; a smaller movement adds no row.
+# A row is added only if x (mm), y (mm) or theta (mrad) has changed by at least the number in STEP.
+STEP = (5, 5, 10)
 BACKGROUND: Colour = (69, 86, 255)
 UP = -1
 
@@ -39,22 +41,22 @@ class RecordingState(TypedDict):
 
 @dataclass
 class _Track:
-    """One turtle: its pen, its last row, and its latest position, if the movement was too small for a row."""
+    """One turtle; `skipped` is its latest position if the turtle has moved too little for a new row."""
 
     number: int
     pen: Pen
     last: Place
     skipped: Place | None = None
-    known: int = 0  # At this time (ms), the state of the pen was last certain.
+    known: int = 0  # the last time (ms) at which the state of the pen was certain
 
 
 @dataclass
 class TurtleRecording:
-    """The rows of a recording in the order of time, with at most MOST rows.
+    """The rows of a recording, sorted by time; there are at most MOST rows.
 
-    If there are more rows, every second position of each turtle is removed.
+    If there are more than MOST rows, every second position of each turtle is removed.
 
-    `edition` increases when earlier rows change.
+    `edition` increases by 1 when rows are removed.
     """
 
     background: Colour = BACKGROUND
@@ -84,7 +86,8 @@ class TurtleRecording:
             track.skipped = row
             return
         if track.skipped is not None:
-            self._add((*track.skipped[:5], UP))  # The turtle did not move before this time.
+            # Add the latest position before the movement, because the turtle was at rest until that time.
+            self._add((*track.skipped[:5], UP))
         track.last, track.skipped = row, None
         self._add(row)
 

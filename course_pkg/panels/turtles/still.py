@@ -29,7 +29,7 @@ Row = Sequence[Any]  # The docstring of recording.py describes the rows.
 def still(state: State) -> str:
     """Return a picture of the last state; if the simulator has ended, use the last state before its end."""
     recorded = state["recorded"]
-    # A check moves its own turtles, which are in a random namespace.
+    # Leave out the turtles of a check; their names contain "/", because a check uses a random namespace.
     own = {turtle for turtle, name in enumerate(recorded["names"]) if "/" not in name}
     rows = [list(row) for row in recorded["rows"] if not own or row[1] < 0 or row[1] in own]
     trails, here = _played(rows)
@@ -69,9 +69,12 @@ def _counted(names: Sequence[str]) -> str:
 
 
 def _played(rows: list[list[Any]]) -> tuple[list[tuple[int, list[tuple[float, float]]]], dict[int, Row]]:
-    """Return the trails and the last row of each turtle. A trail is its colour and its points (px)."""
+    """Return the trails and the last row of each turtle.
+
+    A trail consists of a colour and a list of points (px).
+    """
     for index, row in enumerate(rows):
-        if row[2] == "undrawn":  # The pen was up since the time row[3].
+        if row[2] == "undrawn":  # The pen has been up since the time row[3].
             for earlier in rows[:index]:
                 if earlier[1] == row[1] and not isinstance(earlier[2], str) and earlier[0] > row[3]:
                     earlier[5] = -1
@@ -100,7 +103,7 @@ def _played(rows: list[list[Any]]) -> tuple[list[tuple[int, list[tuple[float, fl
 
 
 def _extend(points: list[tuple[float, float]], point: tuple[float, float]) -> None:
-    """Add a point to a trail. If the last points are on a straight line, replace the last point."""
+    """Add a point to a trail. If the new point continues a straight line, it replaces the last point."""
     if len(points) > 1:
         (x1, y1), (x2, y2), (x3, y3) = points[-2], points[-1], point
         if (

@@ -24,7 +24,7 @@ HERE = Path(__file__).parent
 TYPES = ("turtlesim/Pose", "turtlesim/Color")
 POSE = struct.Struct("<5f")
 SEND = 0.1  # SEND is the time in s between two messages to the page.
-KEEP = 5.0  # KEEP is the time in s after which the panel saves its state again if no page shows it.
+KEEP = 5.0  # If no page shows the panel, the panel saves its state every KEEP s.
 ALONE = 300.0  # The recording stops if no page has shown the panel for this time (s).
 
 
@@ -37,13 +37,13 @@ class Page(Enum):
 
 
 class TurtlePanel(Panel):
-    """All turtles of the graph with their trails.
+    """A picture of all turtles on the graph, with their trails.
 
-    The simulator can be the course's own simulator or the original turtlesim.
+    The simulator of the turtles can be the course's own simulator or the original turtlesim.
 
-    The panel subscribes only to the poses and the colour sensors. The panel derives the states of the pens,
-    and calls of `clear` and `reset`, from these messages. The panel records from the beginning, even if no
-    page shows it. A page can play the recording.
+    The panel subscribes only to the topics of the poses and of the colour sensors. The panel derives the
+    states of the pens, and calls of `clear` and `reset`, from these messages. The recording begins when the
+    panel is created, even if no page shows the panel.
     """
 
     front_end: ClassVar[Path] = HERE / "turtles.js"
@@ -58,7 +58,8 @@ class TurtlePanel(Panel):
         self._colours: dict[str, Colour] = {}
         self._lock = threading.Lock()
         self._page = Page.NONE
-        # The number of rows that the page has received, and the edition of these rows.
+        # `_sent` is the number of rows that were sent to the page, and `_edition` is the edition of these
+        # rows.
         self._sent = self._edition = 0
         self._last_sent = self._last_kept = self._left = self._began
         self._reader = BulkReader(TYPES, self._received, self._missing, self._polled)

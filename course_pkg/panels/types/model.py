@@ -1,6 +1,6 @@
 """The state of a type browser: all types on this machine, and the open type.
 
-This module runs without a page and without ROS.
+This module does not need a ROS graph.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from course_pkg.types import (
 if TYPE_CHECKING:
     from course_pkg.ros import Snapshot
 
-# A catalogue contains the service types and the message types.
+# A catalogue contains the names of all service types, and the names of all message types.
 Catalogue = tuple[tuple[str, ...], tuple[str, ...]]
 TOOLS = {"srv": "rossrv", "msg": "rosmsg"}
 CHANGED = (
@@ -47,8 +47,8 @@ NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH. Therefore, the pane
 class FieldNode(TypedDict):
     """A field.
 
-    `fields` contains the fields of a nested message or time. For an array of messages or times, it contains
-    the fields of one element.
+    If the field is a message or a time, `fields` contains the nested fields. If the field is an array of
+    messages or times, `fields` contains the nested fields of one element.
     """
 
     name: str
@@ -67,12 +67,12 @@ class Part(TypedDict):
 
 
 class TypeState(TypedDict):
-    """A type for the page.
+    """The data of one type for the page.
 
-    `problem` says why the type cannot be read, and `warning` is a note for the reader.
+    `problem` is the reason that the type cannot be read, and `warning` is a note for the reader.
 
-    The file path and the text of the file are set even if the type cannot be read. `lines` contains commands
-    that the reader can copy.
+    `file` and `text` (the path and the content of the file) are set even if the type cannot be read. `lines`
+    contains commands and Python code that the reader can copy.
     """
 
     name: str
@@ -95,7 +95,8 @@ class PackageTypes(TypedDict):
     msg: list[str]
 
 
-# A service or a topic that uses a type: its name, and the names of the nodes in each role.
+# A service or a topic that uses a type: the name of the service or topic, and the names of the nodes in each
+# role.
 Use = dict[str, str | list[str]]
 Offers = dict[DefinitionKind, dict[str, list[Use]]]
 
@@ -106,7 +107,7 @@ def catalogue() -> Catalogue:
 
 
 def described(name: str, half: DefinitionKind) -> TypeState:
-    """Return the state of the type `name` for the page."""
+    """Return the data of the type `name` for the page."""
     file = _file(name, half)
     state: TypeState = {
         "name": name,
@@ -175,8 +176,8 @@ def offers(snapshot: Snapshot) -> Offers:
 class TypeModel:
     """Lists all types, shows one type, and lists the services or topics with this type.
 
-    `changed` is called with keyword arguments: `packages` (the types of each package), `described` (the open
-    type), and `offers` (the services and topics of each type on the graph).
+    The model calls the function `changed` with the keyword arguments `packages` (the types of each package),
+    `described` (the open type), and `offers` (the services and topics of each type on the graph).
     """
 
     def __init__(
@@ -204,8 +205,8 @@ class TypeModel:
     def open(self, name: str, half: DefinitionKind | None = None) -> None:
         """Show a type.
 
-        `half` is "srv" or "msg". If `half` is None, a service type has priority over a message type with the
-        same name.
+        `half` is the kind of the type, "srv" or "msg". If `half` is None, a service type has priority over a
+        message type with the same name.
         """
         with self._turn:
             self._open = (name, half or self._half(name))
@@ -238,7 +239,7 @@ def _file(name: str, half: DefinitionKind) -> Path | None:
     try:
         return definition_file(name, half)
     except InterfaceError:
-        return None  # The text is not a valid name of a type.
+        return None  # `name` is not a valid name of a type.
 
 
 def _warning(found: ServiceType | MessageType, half: DefinitionKind, file: Path | None) -> str:

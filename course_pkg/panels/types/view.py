@@ -16,10 +16,11 @@ from course_pkg.ros import Snapshot, look
 HERE = Path(__file__).parent
 PAUSE = 3.0  # PAUSE is the time in s between two checks of the files.
 # Reading all packages is slow on a machine with many packages. Therefore, at most 1 / SHARE of the time is
-# used for reading.
+# used for reading the packages.
 SHARE = 50
 
-# The tuple contains the types and the time (ns) when the file of the open type was written.
+# A tuple `Files` contains the names of all types, and the time (ns) when the file of the open type was
+# written.
 Files = tuple[Catalogue, int]
 
 
@@ -27,7 +28,7 @@ class TypeBrowser(Panel):
     """All service and message types on this machine, with their fields, and their services or topics.
 
     `name` is the type that is open at the beginning, such as "std_srvs/SetBool". While a page shows the
-    browser, the browser reads changed files and the graph.
+    panel, the panel reads the files and the graph repeatedly.
     """
 
     front_end: ClassVar[Path] = HERE / "types.js"
@@ -43,7 +44,8 @@ class TypeBrowser(Panel):
         super().__init__()
         self._name = name
         self._known: Catalogue = ((), ())
-        self._not_before = 0.0  # The unit is s, as in time.monotonic().
+        # The packages are not read again before this time (s, as in time.monotonic()).
+        self._not_before = 0.0
         self._model = TypeModel(self.publish, turn=self.turn)
         self._graph: Poller[Snapshot] = Poller(look, self._seen, self._failed)
         self._files: Poller[Files] = Poller(self._list, self._listed, self.complain, every=PAUSE)
@@ -72,7 +74,6 @@ class TypeBrowser(Panel):
         return f"TypeBrowser({self._name!r})" if self._name else "TypeBrowser()"
 
     def _list(self) -> Files:
-        """Return all types, and the time (ns) when the file of the open type was written."""
         began = time.monotonic()
         if began >= self._not_before:
             self._known = catalogue()

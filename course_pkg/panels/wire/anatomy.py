@@ -30,7 +30,7 @@ from course_pkg.types.fields import integer_range
 from course_pkg.types.numbers import float32
 
 ERROR = 400  # At most this many characters of an error message are shown.
-ITEMS = 8  # At most this many elements, at the beginning of an array, are shown separately.
+ITEMS = 8  # Only this many elements at the beginning of an array are shown separately.
 # Format characters of `struct` for signed integers; capital letters are for unsigned integers.
 CODES = {1: "b", 2: "h", 4: "i", 8: "q"}
 FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
@@ -41,7 +41,7 @@ Pieces = list[PieceState]
 class Frame(NamedTuple):
     """One message of the stream; `at` is its offset in the stream.
 
-    An incomplete message ends at the end of the stream.
+    The frame of an incomplete message ends at the end of the stream.
     """
 
     at: int
@@ -60,12 +60,12 @@ def header_values(stream: bytes) -> dict[str, str]:
 
 
 def requests(stream: bytes) -> Iterator[Frame]:
-    """Yield the requests that a client sent after its header."""
+    """Yield the requests that a client sent after its connection header."""
     yield from _frames(stream, 0)
 
 
 def replies(stream: bytes) -> Iterator[Frame]:
-    """Yield the replies that a server sent after its header; each reply includes its ok byte."""
+    """Yield the replies that a server sent after its connection header; each reply includes its ok byte."""
     yield from _frames(stream, 1)
 
 
@@ -80,7 +80,7 @@ def _frames(stream: bytes, extra: int) -> Iterator[Frame]:
 def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
     """Return the frame that begins at the offset `at`.
 
-    The length field of the frame comes after `extra` bytes.
+    The frame begins with `extra` bytes (1 for the ok byte of a reply), and then the length field follows.
     """
     if at >= len(stream):
         return None
@@ -98,7 +98,7 @@ def header_pieces(data: bytes) -> Pieces:
         while reader.rest:
             _header_field(reader)
     except ShortOfBytes:
-        pass  # close() adds the remaining bytes.
+        pass  # close() adds the remaining bytes as one piece.
     return reader.close()
 
 
@@ -204,8 +204,8 @@ def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
             before = reader.at
             _field(reader, item, name)
             if reader.at == before:
-                # An element without fields has no bytes. Without this line, a wrong number of elements in the
-                # data could cause a very long loop.
+                # An element without fields has no bytes. The loop ends here, because a wrong number of such
+                # elements in the data could make the loop very long.
                 return
     else:
         reader.take(count * _format(item)[1], RAW, name)

@@ -29,12 +29,14 @@ _Ends = TypedDict("_Ends", {"from": str, "to": str})
 
 
 class Step(_Ends):
-    """A step of a call.
+    """One step of a call, such as the connection or the request.
 
-    `ms` is the time after the first step, `says` explains the step, and `bad` marks an error.
+    `ms` is the time after the first step, `says` explains the step, and `bad` is True if the step is an
+    error.
 
-    `pieces` describes the `size` bytes of the step. A request to the master has `text` instead of `pieces`.
-    `connection` is the number of the connection, or 0 if the call has only one connection.
+    `pieces` describes the `size` bytes of the step. A request to the master, or the master's response, has
+    `text` instead of `pieces`. `connection` is the number of the connection, or 0 if the call has only one
+    connection.
     """
 
     title: str

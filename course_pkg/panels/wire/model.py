@@ -1,6 +1,6 @@
 """The data of the wire view: the steps of a call, each with the pieces of its bytes.
 
-This module uses neither a master nor a page: its input is a recording from ros/wire/capture.py.
+The input is a recording from ros/wire/capture.py, so this module does not need a master.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ XML = 900  # At most this many characters of a request to the master, or of the 
 
 
 class WireState(TypedDict):
-    """A captured call for the page: `names` are the names of the client, the server and the master.
+    """A captured call for the page; `names` are the names of the client, the server and the master.
 
     `outcome` is the error message of the call, if it failed.
     """
@@ -38,8 +38,8 @@ class WireState(TypedDict):
 def state(wire: Wire, find: FindType = service_type) -> WireState:
     """Return the data of a recording for the page.
 
-    `find` returns the type with a given name. It is called if the type is known only from the connection
-    headers.
+    The function `find` returns the service type with a given name. `find` is called if the recording does not
+    contain the type that the server names in its connection header.
     """
     start = min((each.opened for each in _all(wire)), default=0.0)
     steps = list(_look_up(wire, start))

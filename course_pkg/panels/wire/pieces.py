@@ -19,7 +19,7 @@ LENGTH, KEY, MD5, OK, BAD, VALUE, RAW, GROUP = "length", "key", "md5", "ok", "ba
 
 
 class PieceState(TypedDict):
-    """The data of one piece of the bytes, as the page needs them."""
+    """The data of one Piece for the page."""
 
     role: str
     at: int
@@ -33,11 +33,11 @@ class PieceState(TypedDict):
 
 @dataclass(frozen=True)
 class Piece:
-    """A range of bytes with one meaning.
+    """A range of bytes with one meaning, such as a length or a field.
 
-    A GROUP has no bytes: it is a heading for the following pieces, and these pieces have a larger `depth`.
+    A piece with the role GROUP is a heading. The pieces below the heading have a larger `depth`.
 
-    `at` is the offset in the message, `size` is the number of bytes, and `depth` is the level of indentation.
+    `at` is the offset in the message, `size` is the number of bytes, and `depth` is the indentation.
     """
 
     role: str
@@ -76,7 +76,8 @@ class Reader:
         self.depth = 0
         self.pieces: list[Piece] = []
         self._silent = 0
-        self._folded: int | None = None  # The number of pieces reached the maximum at this offset.
+        # All bytes from the offset `_folded` on become one piece, because the reader already has MOST pieces.
+        self._folded: int | None = None
 
     @property
     def rest(self) -> int:
@@ -109,7 +110,7 @@ class Reader:
 
     @contextmanager
     def group(self, name: str, kind: str = "", value: str = "") -> Iterator[None]:
-        """During the `with` block, show all pieces under a heading."""
+        """Put all pieces that are read in the `with` block below the heading `name`."""
         start, place = self.at, len(self.pieces)
         self._keep(Piece(GROUP, start, b"", name, kind, value, self.depth, 0))
         self.depth += 1
@@ -122,7 +123,7 @@ class Reader:
 
     @contextmanager
     def folded(self, name: str) -> Iterator[None]:
-        """During the `with` block, combine all bytes that are read into one piece."""
+        """Combine all bytes that are read in the `with` block into one piece."""
         start = self.at
         self._silent += 1
         try:

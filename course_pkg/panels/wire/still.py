@@ -81,7 +81,6 @@ def _draw_step(paper: Paper, step: State) -> None:
 
 
 def _draw_pieces(paper: Paper, step: State) -> None:
-    """Draw a row for each piece of a message: its offset, bytes, name, type and value."""
     paper.rule()
     paper.write(f"{step['title']}, {step['size']:,} bytes", HEADING)
     paper.y += 2
@@ -109,5 +108,4 @@ def _bytes(piece: State) -> str:
 
 
 def _stable(text: str) -> str:
-    """Return a text without addresses, because the ports differ in each run."""
     return ADDRESS.sub("the address of the server", text)

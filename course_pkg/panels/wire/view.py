@@ -1,4 +1,4 @@
-"""The widget of the wire view. The widget sends a recorded call to the page."""
+"""The widget of the wire view: it sends a recorded call to the page."""
 
 from __future__ import annotations
 

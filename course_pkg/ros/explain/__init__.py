@@ -1,4 +1,4 @@
-"""Explain an error: its cause, what to do, and which chapter covers it. This package works without rospy.
+"""Explain an error: its cause, what to do, and the chapter about it. This package works without rospy.
 
 `known` finds the explanation of one error message. `explain` accepts an exception, or any text that contains
 an error message.

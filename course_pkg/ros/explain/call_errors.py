@@ -1,4 +1,4 @@
-"""The table of errors that a service call raises; `handler_errors` explains the columns."""
+"""The table of errors that a service call raises; the module `handler_errors` explains the columns."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from course_pkg.errors import CourseError
 from course_pkg.ros.explain.explanation import Explanation, known
 from course_pkg.workspace import explain as explain_build
 
-# If a text is longer than this number of characters, only its end is searched.
+# Only the last characters of a text, up to this number, are searched.
 LONGEST = 50_000
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _TRACEBACK = "Traceback (most recent call last)"
@@ -47,9 +47,9 @@ def explain(error: object) -> Explanation:
 
 
 def _of_exception(error: BaseException) -> Explanation:
-    """Return the explanation of an exception or of its cause.
+    """Return the explanation of `error`, or else of an exception that caused `error`.
 
-    If no table contains a CourseError, its message is the explanation.
+    If no table contains the message of a CourseError, this message is the explanation.
     """
     for each in _chain(error):
         message = f"{type(each).__name__}: {_string(each)}"

@@ -1,4 +1,4 @@
-"""The table of errors of the master, of nodes and of addresses; `handler_errors` explains the columns.
+"""The table of errors of the master, nodes and addresses; the module `handler_errors` explains the columns.
 
 A failed call may also report `unable to contact master`, so this table is searched before the table for
 calls.

@@ -1,4 +1,4 @@
-"""An action server in a kernel; a cell may create the action server again.
+"""An action server in a Jupyter kernel; the cell that creates the action server may run again.
 
 The thread of a SimpleActionServer would prevent the end of the process. This module therefore uses goal
 callbacks: http://wiki.ros.org/actionlib_tutorials/Tutorials, "Goal Callback Method".
@@ -29,7 +29,7 @@ class ActionServer:
     and to check whether the goal was cancelled.
 
     An ActionServer ends when stop() is called, or when no variable refers to it any more. The second case
-    occurs, for example, when its cell runs again.
+    occurs, for example, when the cell that created the ActionServer runs again.
     """
 
     def __init__(self, name: str, kind: type, execute: Execute) -> None:
@@ -37,14 +37,15 @@ class ActionServer:
         self._stopped, self._goal_came = threading.Event(), threading.Event()
         self._server = actionlib.SimpleActionServer(name, kind, auto_start=False)
         self._server.register_goal_callback(self._goal_came.set)
-        # The thread gets no reference to self, because this object would then never be deleted.
+        # The thread gets no reference to `self`: with this reference, the ActionServer would never be
+        # deleted.
         work = (self._server, execute, self._goal_came, self._stopped)
         self._thread = threading.Thread(target=_work, args=work, daemon=True)
         self._thread.start()
         self._server.start()
 
     def stop(self) -> None:
-        """Remove the action from the graph and cancel a running goal; the goal's thread may continue."""
+        """Remove the action from the graph and cancel a running goal; the thread of the goal may continue."""
         if self._stopped.is_set():
             return
         self._stopped.set()

@@ -85,7 +85,8 @@ class _Kernel:
         self._packages: OwnPackages | None = None
         self._private: Roscore | None = None
         self._cleaner: SupervisedProcess | None = None
-        # The cleaner process unregisters this node: (the master's URI, the node's name, the node's URI).
+        # The cleaner process unregisters the node with these data: the master's URI, the node's name and its
+        # URI.
         self._registered: tuple[str, str, str] | None = None
 
     def join(self, name: str) -> Node:
@@ -119,8 +120,7 @@ class _Kernel:
             if self._shell is not None:
                 self._shell.add_programs(self._node.keep)
             atexit.register(self._at_exit)
-            # Without this line, a forked child that ends would unregister the services and topics of its
-            # parent.
+            # When a forked child process ends, it must not unregister the services and topics of its parent.
             os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
         self._node.renew()
         self._start_cleaner(master)
@@ -176,7 +176,7 @@ class _Kernel:
     def _start_cleaner(self, master: MasterClient) -> None:
         """Start a process that unregisters the node if this kernel is killed.
 
-        If the master is private, no such process is necessary, because the master ends with the kernel.
+        If the master is private, no cleaner process is necessary, because the master ends with the kernel.
         """
         ours = self._private is not None and self._private.uri == master.uri
         registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())
@@ -196,8 +196,8 @@ class _Kernel:
         with suppress(GraphError, OSError):
             self.leave(self._node)
         if (manager := registration_manager()) is not None:
-            # All registrations have been removed. `master_uri` is set to None, because rospy would otherwise
-            # unregister again, without a time limit.
+            # The node is already unregistered. Without this line, rospy would unregister the node again,
+            # without a time limit.
             manager.master_uri = None
         if self._private is not None:
             self._private.stop()
@@ -235,9 +235,9 @@ def _require_same_name(full: str) -> None:
 
 
 def _apply_environment() -> None:
-    """Set the workspace's environment variables if its setup file was not sourced.
+    """Set the workspace's environment variables if the workspace's setup file was not sourced.
 
-    In an editor or on Binder, for example, the setup file is not sourced.
+    In an editor or on Binder, for example, the workspace's setup file is not sourced.
     """
     if "ROS_PACKAGE_PATH" not in os.environ:
         from course_pkg.setup import environment
@@ -247,7 +247,7 @@ def _apply_environment() -> None:
                 "The course's workspace is not built on this machine. Run `./course doctor` in "
                 "a terminal, and install the missing programs. Then run this cell again."
             )
-        # The extended path contains the generated package course_pkg.srv.
+        # With the extended `__path__`, Python finds the generated package course_pkg.srv.
         course_pkg.__path__ = extend_path(course_pkg.__path__, course_pkg.__name__)
     if not any(os.environ.get(name) for name in ("ROS_HOSTNAME", "ROS_IP")):
         os.environ["ROS_HOSTNAME"] = "localhost"
@@ -256,8 +256,8 @@ def _apply_environment() -> None:
 def _free_name(full: str, master: MasterClient) -> None:
     """Wait until no running node uses this name.
 
-    If a node with this name has ended, its registrations are removed. Raises NodeNameTaken after NAME_TIMEOUT
-    seconds.
+    If a node with the requested name has ended, its registrations are removed. Raises NodeNameTaken after
+    NAME_TIMEOUT seconds.
     """
     deadline = time.monotonic() + NAME_TIMEOUT
     while (uri := master.lookup_node(full)) is not None:

@@ -1,4 +1,4 @@
-"""A notebook's kernel as a node; a cell that calls these methods may run again."""
+"""A notebook's kernel as a node; a cell that calls the node's methods may run again."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Node:
         full = rospy.resolve_name(topic)
         if full in self._subscriptions:
             self._subscriptions.pop(full).stop()
-        # The subscription ends at the next subscribe() to its topic, not when its cell runs again.
+        # The subscription ends at the next subscribe() to the same topic, not when the cell runs again.
         with self._cells.paused():
             self._subscriptions[full] = Subscription(full, message_class(kind), callback)
         return self._subscriptions[full]
@@ -93,10 +93,10 @@ class Node:
         self._processes[f"process {process.pid}"] = process
 
     def record(self) -> AbstractContextManager[Recording]:
-        """Record the actions of all nodes of the course during a `with` block.
+        """Record the calls, messages and callbacks of all nodes of the course during a `with` block.
 
-        The recording is empty until the block ends. If a node does not answer, the collection of the records
-        takes up to 1 s.
+        The recording is empty until the `with` block ends. If a node does not answer, the collection of the
+        records takes up to 1 s.
         """
         self._require()
         return recorded(self.name, self.uri, self._client())
@@ -133,7 +133,7 @@ class Node:
         return f"<node {self.name}>"
 
     def _client(self) -> MasterClient:
-        """Return the client of rospy's current master."""
+        """Return a MasterClient for the master that rospy uses now."""
         if self._master.uri != master_uri():
             self._master = MasterClient(master_uri())
         return self._master
@@ -147,8 +147,8 @@ class Node:
 
     def _proxy(self, name: str, kind: ServiceKind) -> BoundedProxy:
         cls = service_class(kind)
-        # An id belongs to only one class as long as the class exists. The class exists as long as its proxy
-        # is stored, because the proxy has a reference to the class.
+        # The id() of a class is unique as long as the class exists. The stored proxy has a reference to the
+        # class, so the class exists as long as the proxy.
         key = (str(rospy.resolve_name(name)), id(cls))
         if key not in self._proxies:
             self._require()

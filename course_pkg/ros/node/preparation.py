@@ -1,9 +1,9 @@
-"""Add the features of a course node to a process, after init_node().
+"""After init_node(), make a node ignore idle connections, and record its calls and messages.
 
 In rospy, one thread accepts all connections and also reads their headers. A client that connects and sends
-nothing therefore blocks new connections to all services and topics of the node. In a prepared node, this
-thread reads only headers that have arrived completely. A separate thread waits, for a limited time, for a
-header that arrives slowly.
+nothing therefore blocks new connections to all services and topics of the node. In a prepared node, the
+thread that accepts connections reads only headers that have arrived completely. A separate thread waits, for
+a limited time, for a header that arrives slowly.
 
 In the slave API (http://wiki.ros.org/ROS/Slave_API), `getBusStats` returns a list for the statistics of
 services. rospy leaves this list empty, and this module fills the list. `getCourseRecord` is an additional
@@ -91,7 +91,7 @@ def guard_against_idle_connections() -> bool:
 def hasten_shutdown() -> None:
     """Wake up rospy's registration thread as soon as a shutdown begins.
 
-    A shutdown then takes up to 0.5 s less.
+    This function makes a shutdown up to 0.5 s shorter.
     """
     manager = registration_manager()
     if manager is None or getattr(manager, HASTENED, False):
@@ -106,9 +106,9 @@ def hasten_shutdown() -> None:
 
 
 def extend_slave() -> None:
-    """Make this process's node return its records through the slave API."""
+    """Make the slave API of this process's node return the node's records."""
     setattr(ROSHandler, GET_RECORD, _record)
-    # rospy wraps this method in a function with the parameters args and kwds.
+    # In rospy, a decorator gives the method getBusStats the parameters `args` and `kwds`.
     hook = Hook(ROSHandler, STATISTICS, ("args", "kwds"), _add_services)
     if hook.fits():
         hook.install()
@@ -157,7 +157,7 @@ def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
 
 
 def _record(_handler: ROSHandler, _caller_id: str, since: float) -> tuple[int, str, str]:
-    """Return the record of this node from the time `since` (s of time.monotonic()), as JSON.
+    """Return the record of this node since the time `since` (s of time.monotonic()), as JSON.
 
     JSON is ten times as fast to encode as XML.
     """

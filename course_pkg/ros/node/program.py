@@ -19,7 +19,7 @@ from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 
 END_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 TIMEOUT = 5.0  # Wait up to this time in s for a server, and again up to this time for the response.
-INTERVAL = 0.02  # This is the time in s between two polls.
+INTERVAL = 0.02  # wait_until() checks its condition again after this time in s.
 
 Offered = tuple[type, Callable[[Message], Message]]  # The class of a service, and its handler.
 
@@ -60,9 +60,9 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Delay Ctrl-C until the end of the block.
+    """Delay Ctrl-C until the end of the `with` block.
 
-    While rospy calls the master, it holds a lock that its shutdown also needs.
+    While rospy calls the master, rospy holds a lock that the shutdown of rospy also needs.
     """
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}

@@ -69,7 +69,7 @@ class BoundedProxy(rospy.ServiceProxy):
         """End all running calls; each call raises CallCancelled in the thread that made it."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            # If the call had already ended before this action was armed, only the next lines disarm the
+            # If the call ended before arm() added this action to the watchdog, only the next lines remove the
             # action.
             if call.over:
                 self._disarm(call)
@@ -85,7 +85,7 @@ class BoundedProxy(rospy.ServiceProxy):
     def _call(self, args: Sequence[object], fields: Mapping[str, object], timeout: float) -> Message:
         request = args_kwds_to_message(self.request_class, args, fields)
         if request._type != self.request_class._type:
-            # This error message is the same as rospy's own message.
+            # The text is a copy of rospy's error message.
             text = "request object type [%s] does not match service type [%s]"
             raise TypeError(text % (request.__class__, self.request_class))
         call = _Call(self.resolved_name, timeout)
@@ -94,7 +94,8 @@ class BoundedProxy(rospy.ServiceProxy):
         try:
             return self._persistently(call, request) if self.persistent else self._once(call, request)
         except (rospy.ServiceException, TransportException, OSError, AttributeError):
-            # If the socket is shut down while rospy uses it, rospy raises one of these errors.
+            # rospy raises one of these errors if another thread shuts the socket down while rospy uses the
+            # socket.
             if call.error is None:
                 raise
             # rospy's error only says that the socket is closed; `call.error` contains the reason.
@@ -129,7 +130,8 @@ class BoundedProxy(rospy.ServiceProxy):
                 response = self._exchanged(transport, request)
             except rospy.ServiceException as error:
                 if error.__cause__ is None and call.error is None:
-                    # The server has answered, so this connection can be used again.
+                    # The error message is from the server, so the connection still works and can be used
+                    # again.
                     self._connection = transport
                 else:
                     transport.close()

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 class Publisher:
     """A publisher that counts its messages.
 
-    `published` counts all messages; `unheard` counts the messages that had no subscriber. If `latch` is true,
-    each subscriber that connects later receives the last message. Each subscriber has a queue for up to
-    `queue_size` messages; 0 means no limit.
+    `published` counts all messages; `unheard` counts the messages that were published without a subscriber.
+    If `latch` is true, each subscriber that connects later receives the last message. Each subscriber has a
+    queue for up to `queue_size` messages; 0 means no limit.
     """
 
     def __init__(self, topic: str, cls: MessageClass, *, queue_size: int = 10, latch: bool = False) -> None:
@@ -52,7 +52,7 @@ class Publisher:
 
     @property
     def advertised(self) -> bool:
-        """Whether this publisher can publish, which is false after stop()."""
+        """Whether this publisher can publish; false after stop()."""
         return self._publisher is not None
 
     @property

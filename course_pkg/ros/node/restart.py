@@ -31,7 +31,7 @@ BEGINNING: tuple[tuple[ModuleType, str, object], ...] = (
     (tcpros_base, "_tcpros_server", None),
     (rosout, "_rosout_pub", None),
 )
-LOGGERS = ("rospy", "rosout", "rosgraph", "xmlrpc", "roslib")  # These loggers belong to ROS.
+LOGGERS = ("rospy", "rosout", "rosgraph", "xmlrpc", "roslib")
 
 
 def can_begin_again() -> bool:
@@ -77,7 +77,7 @@ class _AnyArguments:
 
 @contextmanager
 def logging_kept() -> Iterator[None]:
-    """After the block, restore the root logger's handlers; new handlers stay only on ROS's loggers."""
+    """After the `with` block, restore the root logger's handlers; new handlers stay only on ROS's loggers."""
     root = logging.getLogger()
     handlers, level = root.handlers[:], root.level
     try:

@@ -15,8 +15,8 @@ REPEAT = 0.02  # An armed action runs again after this time in s.
 class Watchdog:
     """Runs an action after its deadline, and again every 20 ms, until the action is disarmed.
 
-    An action shuts down a socket, and this socket may not exist at the first run. The thread ends some
-    seconds after the last action was disarmed.
+    An action shuts down a socket; when the action runs for the first time, the socket may not exist yet. The
+    thread ends some seconds after the last action was disarmed.
     """
 
     def __init__(self) -> None:

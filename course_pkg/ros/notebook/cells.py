@@ -1,6 +1,6 @@
 """Record the runs of a notebook's cells and the objects that each run created.
 
-When a cell runs again, the objects that its last run created are shut down, for example services.
+When a cell runs again, the objects (such as services) that the last run created are shut down.
 
 A front end sends the cell's id with each execution. nbclient sends no id, so each execution without an id
 counts as a separate cell.
@@ -29,7 +29,8 @@ class CellRun:
     """
 
     source: str = ""
-    # The value is True for a check; when a check ends, the objects that it created are shut down.
+    # `temporary` is True if the run is a check; when a check ends, the objects that the check created are
+    # shut down.
     temporary: bool = False
     error: str = ""  # This is the class name of the exception that ended the run.
     # The dict maps each created object to the function that shuts it down; the oldest object comes first.
@@ -55,7 +56,8 @@ class Cells:
         self._runs: dict[str, CellRun] = {}
         self._cells: dict[str, str] = {}  # The dict maps the `source` of a run to the id of its cell.
         self._current: CellRun | None = None
-        # This is the number of runs inside the current run; for example, %%capture starts another run.
+        # This is the number of cell runs that began inside the current run; %%capture, for example, begins
+        # one.
         self._depth = 0
         self._paused = 0
 
@@ -86,15 +88,15 @@ class Cells:
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 
     def created(self, thing: Hashable, close: Close) -> None:
-        """If there is a current run, record that this run created `thing`; `close` shuts `thing` down."""
+        """Record that the current run, if any, created `thing`; the function `close` shuts `thing` down."""
         if run := self.run:
             run.created[thing] = close
 
     @contextmanager
     def paused(self) -> Iterator[None]:
-        """Do not record the objects that are created in the block.
+        """Do not record the objects that are created in the `with` block.
 
-        Objects that are created in the block are not shut down when the cell runs again.
+        Objects that are created in the `with` block are not shut down when the cell runs again.
         """
         self._paused += 1
         try:
@@ -104,9 +106,9 @@ class Cells:
 
     @contextmanager
     def check(self) -> Iterator[None]:
-        """After the block, shut down all objects that the block created.
+        """After the `with` block, shut down all objects that the block created.
 
-        A service that is created in the block does not replace a service that was created by a cell.
+        A service that is created in the `with` block does not replace a service that a cell has created.
         """
         before, self._current = self._current, CellRun(temporary=True, threads=_thread_ids())
         run = self._current
@@ -117,9 +119,9 @@ class Cells:
             self._close_all(list(run.created.values()))
 
     def later_run(self, source: str) -> CellRun | None:
-        """Return the last run of the cell that has run with the file name `source`.
+        """Return the last run of a cell; `source` is IPython's file name of any run of this cell.
 
-        If `source` is the file name of the last run, return None.
+        If `source` belongs to the last run, return None.
         """
         run = self._runs.get(self._cells.get(source, ""))
         return run if run is not None and run.source != source else None

@@ -1,7 +1,7 @@
 """Record in `Cells` which objects of rospy and actionlib a cell creates, and shut these objects down.
 
 rospy has no list of its Publisher and Subscriber objects. This module therefore replaces the methods that
-create these objects with methods that also record the objects. A method with unexpected parameters is not
+create these objects; each new method also records the object. A method with unexpected parameters is not
 replaced.
 """
 
@@ -32,7 +32,7 @@ from course_pkg.ros.trace.hooks import Hook, Method
 GOAL_TIMEOUT = 2.0  # A goal has to end within this time in s after its cancellation.
 # One of these errors is raised if a topic is closed, the node is shut down, or the master does not answer.
 EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError, GraphError)
-# The address of an ended service is replaced with this value. If the ended service kept its address, another
+# This value replaces the address of a service that has ended. If the ended service kept its address, another
 # shutdown() of this service would unregister a newer service of this process with the same name.
 UNREGISTERED = "rosrpc://unregistered:0"
 LOOK = 0.5  # This is the time in s between two polls in _end_with_process().
@@ -83,7 +83,7 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """If the master does not answer, rospy does not unregister during the block, and so does not hang."""
+    """If the master does not answer, rospy skips the unregistration during the block, and cannot hang."""
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
     try:
@@ -143,7 +143,7 @@ def _registering(cells: Cells) -> Callable[[Method], Method]:
 
 
 def _make_room(run: CellRun, before: ServiceImpl) -> bool:
-    """Return whether a new service may replace the service `before`; if necessary, shut `before` down.
+    """Return whether a new service may replace the older service `before`; if necessary, shut `before` down.
 
     A check must not shut down the service of a cell. A check may create a second object of a student's class,
     and the `__init__` of this class may create a service. The service of the second object must not replace

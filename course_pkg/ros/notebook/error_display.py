@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 METHOD = "structured_traceback"  # IPython formats an error with this method.
 DEFAULT_MODE = "Context"  # Errors are shortened only in this default mode of %xmode.
-CALLS = 2  # For a SyntaxError in an imported file, the error message shows at most this number of calls.
+# For a SyntaxError in an imported file, the error message shows at most this number of function calls.
+CALLS = 2
 # rospy's log messages about an exception contain this text.
 TRACEBACK = "Traceback (most recent call last)"
 LOGGER = "rosout"
@@ -45,7 +46,7 @@ class ErrorDisplay:
         self._threads.forget()
 
     def follow_threads(self) -> None:
-        """Also show the errors of handlers, callbacks and timers; call this after the start of rospy."""
+        """Also show errors of handlers, callbacks and timers; call this method after the start of rospy."""
         self._threads.install()
 
     def _formatted(
@@ -112,7 +113,7 @@ class ThreadErrors(logging.Handler):
         self._shown.clear()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """If `record` is rospy's message about an exception, show the exception that this thread handles."""
+        """If rospy's log record is about an exception, show the exception that this thread is handling."""
         error = sys.exc_info()[1]
         if error is not None and TRACEBACK in record.getMessage() and _in_background():
             self._show(error)

@@ -8,9 +8,9 @@ from __future__ import annotations
 import logging
 import sys
 
-# Without a salt, the ids in an SVG are random. The date is None, so that an SVG does not contain the time of
-# the run. With the font type "none", an SVG contains its letters as text. Such an SVG is smaller, and a
-# screen reader can read it.
+# With this salt, the ids in an SVG are the same in every run. With the date None, an SVG does not contain the
+# time of the run. With the font type "none", an SVG contains its letters as text. Such an SVG is smaller, and
+# a screen reader can read it.
 RC = {"svg.hashsalt": "course_pkg", "svg.fonttype": "none"}
 SETTINGS = {
     "figure_formats": {"svg"},
@@ -22,15 +22,15 @@ SETTINGS = {
 def set_up_figures() -> None:
     """Make this kernel show figures as SVG; outside of IPython, do nothing.
 
-    matplotlib's inline backend reads the settings before it draws the first figure. If it has already drawn a
-    figure, the settings apply to the next figure.
+    matplotlib's inline backend reads the settings before it draws the first figure. If the backend has
+    already drawn a figure, the settings apply to the next figure.
     """
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None
     if shell is None:
         return
     shell.config.InlineBackend.update(SETTINGS)
-    # On a new machine, a cell would show matplotlib's log message about its font cache.
+    # On a new machine, matplotlib logs a message about its font cache; a cell must not show this message.
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     config = sys.modules.get("matplotlib_inline.config")
     if config and config.InlineBackend.initialized():

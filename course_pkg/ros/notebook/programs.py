@@ -26,7 +26,7 @@ Keep = Callable[[NodeProcess], None]
 
 
 class Program:
-    """A program that runs in the background until its cell runs again, or until the kernel ends."""
+    """A program that runs in the background until the cell that started it runs again, or the kernel ends."""
 
     def __init__(self, words: str, process: NodeProcess) -> None:
         self._words = words
@@ -74,7 +74,7 @@ class Program:
 
 
 class ProgramMagics:
-    """Adds %rosrun and %roslaunch to `shell`; both call `keep` with each process that they start."""
+    """Adds %rosrun and %roslaunch to `shell`; both call the function `keep` with each new process."""
 
     def __init__(self, shell: InteractiveShell, cells: Cells, keep: Keep) -> None:
         self._cells = cells
@@ -105,9 +105,9 @@ class ProgramMagics:
 
 
 def _words(line: str) -> list[str]:
-    """Return the words of a command, without a final `&`.
+    """Return the words of a command line, without a final `&`.
 
-    A magic ignores `&`, because it always starts a program in the background.
+    %rosrun and %roslaunch ignore `&`, because they always start a program in the background.
     """
     words = shlex.split(line)
     return words[:-1] if words[-1:] == ["&"] else words

@@ -28,12 +28,12 @@ class NotebookShell:
         self.errors = ErrorDisplay(shell)
         shell.events.register("pre_run_cell", self._begin)
         shell.events.register("post_run_cell", self._end)
-        # The cell that calls join() is already running, so its start is reported here.
+        # The cell that calls join() is already running, so the next line reports the start of this cell.
         if request := _execute_request(shell):
             self._begin_run(request["metadata"].get("cellId"), request["content"]["code"])
 
     def add_programs(self, keep: Keep) -> None:
-        """Add %rosrun and %roslaunch to the notebook; they call `keep` with each process that they start."""
+        """Add %rosrun and %roslaunch to the notebook; both call the function `keep` with each new process."""
         ProgramMagics(self._shell, self._cells, keep)
 
     def _begin(self, info: ExecutionInfo) -> None:

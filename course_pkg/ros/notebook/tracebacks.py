@@ -14,7 +14,7 @@ import course_pkg
 
 LINES = 12  # A traceback has at most this number of lines.
 WIDTH = 100  # A front end breaks a line that is longer than this number of characters.
-MESSAGE_LINES = 6  # A message has at most this number of lines, so at least two calls can be shown.
+MESSAGE_LINES = 6  # A message has at most this number of lines, so at least two function calls can be shown.
 MORE = " … (%tb shows the rest)"
 # Folders with these names contain installed libraries, including the libraries of ROS.
 INSTALLED = ("site-packages", "dist-packages")
@@ -22,11 +22,12 @@ HEADER = "Traceback (most recent call last; %tb shows all of it):"
 HANDLER_HEADER = "Traceback of a handler or callback (most recent call last):"
 MAGIC = re.compile(r"get_ipython\(\)\.run_line_magic\('(\w+)', '(.*)'\)")
 
-PlaceOf = Callable[[str], str]  # The function returns the name of a file for an error message.
+# A function of this type returns the name that an error message shows for a file.
+PlaceOf = Callable[[str], str]
 
 
 def readable_traceback(error: BaseException, place_of: PlaceOf = str, header: str = HEADER) -> list[str]:
-    """Return at most 12 lines that show `error`: its message and the calls in the student's own code."""
+    """Return at most 12 lines about `error`: its message and the function calls in the student's own code."""
     before = [f"  {line}" for line in _before(error, place_of)]
     message = _message(error)
     calls = [_call(frame, place_of) for frame in students_frames(error.__traceback__)]
@@ -64,7 +65,7 @@ def _call(frame: traceback.FrameSummary, place_of: PlaceOf) -> list[str]:
 
 
 def _shortened(calls: list[list[str]], room: int) -> list[str]:
-    """Return the lines of all calls, or only the first and last calls if they need more than `room` lines."""
+    """Return the lines of all function calls; if they exceed `room` lines, return only the first and last."""
     if sum(map(len, calls)) <= room:
         return [line for call in calls for line in call]
     last = max((room - 3) // 2, 1)

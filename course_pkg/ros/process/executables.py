@@ -15,7 +15,8 @@ from course_pkg.errors import UnknownExecutable
 def find_executable(package: str, name: str) -> Path:
     """Return the path of a package's program.
 
-    Raises UnknownExecutable if the package has no such program; the error message suggests other programs.
+    Raises UnknownExecutable if the package has no program with this name; the message suggests other
+    programs.
     """
     found: dict[str, Path] = {}
     for path in _programs(package):

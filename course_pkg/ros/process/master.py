@@ -121,7 +121,7 @@ def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> Non
 
     Ctrl-C interrupts this function, but it does not interrupt the wait in init_node(). The function polls the
     master every `interval` s, and calls `warn` once if no master answers. The function raises
-    MalformedMasterUri and NotAMaster at once.
+    MalformedMasterUri if the URI is invalid, and NotAMaster if another program answers.
     """
     client, warned = MasterClient(master_uri()), False
     while True:
@@ -147,7 +147,7 @@ def _pid(client: MasterClient) -> int:
 
 
 def _port(asked: int | None) -> int:
-    """Return the requested port, or any free port of 127.0.0.1 if `asked` is None.
+    """Return the requested port `asked`, or any free port of 127.0.0.1 if `asked` is None.
 
     Raises PortBusy if the requested port is in use.
     """

@@ -29,7 +29,7 @@ GRACE = 3.0  # A node has to end within this time in s after SIGINT; a node with
 class NodeProcess:
     """A command that runs one or more nodes; all of them end when this process ends, or earlier.
 
-    A temporary file stores the output. The file is deleted together with this object.
+    A temporary file stores the output of the command. The file is deleted together with this object.
     """
 
     def __init__(self, command: Sequence[str], *, label: str = "") -> None:

@@ -14,7 +14,7 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 READY = 15.0  # Wait up to this time in s until a node is on the graph.
-INTERVAL = 0.02  # This is the time in s between two polls.
+INTERVAL = 0.02  # This is the time in s between two polls of the master.
 
 
 class PrivateGraph:
@@ -79,7 +79,7 @@ class PrivateGraph:
         return f"<a private graph with {master} and {alive} programs>"
 
     def _knows(self, process: NodeProcess) -> bool:
-        """Return whether a registered node belongs to `process`: the process listens on the node's port."""
+        """Return whether a node of `process` is registered: `process` listens on the port of this node."""
         master = MasterClient(self.uri)
         try:
             nodes, _ = master.lookup_all(master.system_state().nodes, ())

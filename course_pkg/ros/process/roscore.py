@@ -18,7 +18,7 @@ ROSOUT = "/rosout"  # The node and its topic both have this name.
 # Wait up to this time in s for /rosout. The registration usually takes 0.05 s, but much longer on a busy
 # machine.
 READY = 15.0
-INTERVAL = 0.005  # This is the time in s between two polls.
+INTERVAL = 0.005  # This is the time in s between two polls of /rosout.
 VERSION = re.compile(r"<version[^>]*>\s*([^<\s]+)")
 
 
@@ -100,7 +100,6 @@ def _prefix() -> Path:
 
 
 def _parameters(prefix: Path) -> dict[str, str]:
-    """Return the parameters that roscore sets."""
     package = prefix / "share" / "roslaunch" / "package.xml"
     version = VERSION.search(package.read_text("utf-8")) if package.is_file() else None
     return {

@@ -61,7 +61,8 @@ class SupervisedProcess:
                 env=env,
                 cwd=cwd,
                 pass_fds=[writer, *inherit],
-                # Without a new session, an interrupt of the kernel would also interrupt the command.
+                # The command runs in a new session, so that an interrupt of the kernel does not interrupt the
+                # command.
                 start_new_session=not foreground,
             )
         finally:
@@ -112,7 +113,7 @@ class SupervisedProcess:
 
 @contextmanager
 def temporary_folder(prefix: str) -> Iterator[Path]:
-    """Yield a new folder. It is deleted after the block, or when this process ends, even after SIGKILL."""
+    """Yield a new folder; delete it after the `with` block, or when this process ends, even after SIGKILL."""
     folder = Path(tempfile.mkdtemp(prefix=prefix))
     guard = SupervisedProcess([], remove=folder)
     try:

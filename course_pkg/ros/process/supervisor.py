@@ -18,10 +18,10 @@ import time
 from contextlib import suppress
 
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # These values are from linux/prctl.h.
-# A terminal sends these signals to a process group.
+# A terminal sends these signals to all processes of a process group.
 FROM_TERMINAL = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)
 FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-# Python or this program changes the handlers of these signals; a command expects the default handlers.
+# A command expects the default handlers of these signals, but Python or this program changes the handlers.
 CHANGED = (*FORWARDED, *FROM_TERMINAL, signal.SIGCHLD, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ)
 GRACE = 2.0  # The supervisor waits this time in s between SIGTERM and SIGKILL.
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
@@ -93,7 +93,7 @@ class Supervisor:
             os.read(self._signalled, 512)
 
     def _reap(self) -> bool:
-        """Collect the children that have ended, and return whether any child is still running."""
+        """Collect the exit statuses of ended children, and return whether any child is still running."""
         while True:
             try:
                 pid, status = os.waitpid(-1, os.WNOHANG)
@@ -107,9 +107,9 @@ class Supervisor:
     def _end_descendants(self) -> frozenset[int]:
         """End all descendants with SIGTERM, or with SIGKILL after GRACE s.
 
-        Orphaned descendants become children of this process. If a descendant is a supervisor, it is killed
-        GRACE s later, because it has to clean up after its owner has been killed. The returned set contains
-        the listening ports of the killed processes.
+        Orphaned descendants become children of this process. A descendant that is a supervisor is killed
+        GRACE s later, so that this supervisor can first clean up. The returned set contains the listening
+        ports of the killed processes.
         """
         ports: frozenset[int] = frozenset()
         deadline = time.monotonic() + (0 if self.urgent else GRACE)
@@ -174,7 +174,7 @@ def _is_supervisor(pid: int) -> bool:
 def descendants(root: int) -> list[int]:
     """Return the descendants of the process `root`, parents before children.
 
-    Without /proc, the list is empty.
+    On a system without /proc, the list is empty.
     """
     children: dict[int, list[int]] = {}
     for entry in os.listdir("/proc") if os.path.isdir("/proc") else []:

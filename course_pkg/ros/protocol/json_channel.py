@@ -40,8 +40,8 @@ class JsonChannel:
         """Send one object; if the send buffer is full, wait up to `timeout` s until the receiver reads data.
 
         Raises ChannelBroken if the message is too long, ChannelClosed if the receiver has closed the channel,
-        and ChannelTimeout after `timeout` s. After a timeout, close the channel, because only the beginning
-        of the message may have been sent.
+        and ChannelTimeout after `timeout` s. After ChannelTimeout, the caller must close the channel, because
+        only a part of the message may have been sent.
         """
         line = memoryview(json.dumps(message).encode() + b"\n")
         if len(line) > self._limit:

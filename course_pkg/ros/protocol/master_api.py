@@ -12,7 +12,8 @@ from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient, it
 
 Addresses = dict[str, str]  # The dict maps the name of each node or service to its address.
 REMAP = "__master:="  # Source: http://wiki.ros.org/Remapping%20Arguments
-# The mapping contains the publishers, subscribers or servers of each topic or service.
+# The mapping assigns the names of nodes to each topic (its publishers or subscribers) or service (its
+# servers).
 Registered = Mapping[str, tuple[str, ...]]
 
 
@@ -71,7 +72,7 @@ class MasterClient(XmlRpcClient):
             ) from error
 
     def pid(self, timeout: float | None = None) -> int:
-        """Return the master's process id. This is the fastest request, for example to test the master."""
+        """Return the master's process id. This is the fastest way to test whether the master answers."""
         return int(str(self._value("getPid", timeout=timeout)))
 
     def lookup_service(self, name: str, timeout: float | None = None) -> str | None:
@@ -108,7 +109,7 @@ class MasterClient(XmlRpcClient):
         return SystemState(*map(_registered, items(self._value("getSystemState"))))
 
     def topic_types(self) -> dict[str, str]:
-        """Return the types of all topics; a topic is missing if no node has registered a type for it."""
+        """Return the types of all topics; topics for which no node has registered a type are omitted."""
         return {topic: str(kind) for topic, kind in map(_pair, items(self._value("getTopicTypes")))}
 
     def get_param(self, name: str, default: RpcValue = None) -> RpcValue:

@@ -49,7 +49,7 @@ class Probe:
 
 
 def ask_all(probes: Sequence[Probe], timeout: float) -> None:
-    """Set `answer` and `reach` of all probes; return when all probes have a result, or after `timeout` s."""
+    """Set `answer` and `reach` of each probe; return when all probes have a result, or after `timeout` s."""
     deadline = time.monotonic() + timeout
     resolved = {host: _resolved(host) for host in {probe.address[0] for probe in probes}}
     with selectors.DefaultSelector() as selector:
@@ -100,7 +100,7 @@ def encode_header(fields: dict[str, str]) -> bytes:
 
 
 def header_fields(answer: bytes) -> dict[str, str]:
-    """Return the fields of the connection header at the start of `answer`, or {} without a header."""
+    """Return the fields of the connection header at the start of `answer`, or {} if there is no header."""
     try:
         fields: dict[str, str] = decode_ros_handshake_header(answer)
     except (ROSHandshakeException, struct.error, UnicodeDecodeError):

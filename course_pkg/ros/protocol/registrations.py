@@ -51,9 +51,10 @@ def registrations(master: MasterClient, nodes: Collection[str] | None = None) ->
 
 
 def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Registration]:
-    """Unregister these entries with one request, and return the entries that were still registered.
+    """Remove the registrations `entries` with one request, and return the entries that were still registered.
 
-    The master removes an entry only if its address matches, so entries of other processes are not removed.
+    The master removes an entry only if the entry's address is still registered, so registrations of other
+    processes are not removed.
     """
     listed = list(entries)
     answers = master.multicall([(METHODS[each.kind], each.node, each.name, each.uri) for each in listed])
@@ -63,9 +64,9 @@ def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Regi
 def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Registration]:
     """Unregister the node if it still has this address; do not unregister a newer node with the same name.
 
-    If a second process registers with the same node name, the master deletes the entries of the first process
-    (rosmaster/registrations.py). All entries of a node name therefore belong to the process whose address is
-    registered.
+    If a second process registers with the same node name, the master deletes the registrations of the first
+    process (rosmaster/registrations.py). All registrations under a node name therefore belong to the process
+    whose address is registered.
     """
     if master.lookup_node(node) != node_uri:
         return []
@@ -101,7 +102,8 @@ def remove_stale(
 
 
 def _stale(master: MasterClient, nodes: Collection[str] | None, timeout: float) -> list[Registration]:
-    # The supervisor imports this module without the libraries of ROS, so this import is inside the function.
+    # This import is inside the function, because the supervisor imports this module without the libraries of
+    # ROS.
     from course_pkg.ros.protocol.probe import Reach, ask_all, node_probe, service_probe
 
     entries = registrations(master, nodes)

@@ -12,7 +12,7 @@ from course_pkg.ros.protocol.probe import Probe, Reach, ask_all, header_fields, 
 if TYPE_CHECKING:
     from course_pkg.types import Plain
 
-# A node has to respond within this time in s. On the same machine, a response takes a few milliseconds.
+# A node has to respond within this time in s.
 TIMEOUT = 0.5
 
 

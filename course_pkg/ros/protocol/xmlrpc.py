@@ -89,7 +89,7 @@ def encode(method: str, *args: RpcValue) -> bytes:
 
 
 def decode(body: bytes) -> RpcValue:
-    """Return the value in the body of a response; raises an error of NO_ANSWER if the body is invalid."""
+    """Return the value in a response's body; raises one of the errors in NO_ANSWER if the body is invalid."""
     value: RpcValue = loads(body)[0][0]  # type: ignore[assignment]  # typeshed has another union of types
     return value
 

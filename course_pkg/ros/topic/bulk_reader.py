@@ -1,9 +1,9 @@
 """Read many topics on one thread, many messages at a time, for a panel that draws the messages.
 
-A subscriber of rospy wakes up for each message. For hundreds of messages per second, it uses too much CPU
-time. The reader therefore uses TCPROS (http://wiki.ros.org/ROS/TCPROS) without rospy, and reads all new
-messages every 50 ms. The reader does not register as a subscriber, because a panel should not change the
-graph.
+A subscriber of rospy wakes up for each message. At hundreds of messages per second, such a subscriber uses
+too much CPU time. The reader therefore uses TCPROS (http://wiki.ros.org/ROS/TCPROS) without rospy, and reads
+all new messages every 50 ms. The reader does not register as a subscriber, because a panel should not change
+the graph.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class BulkReader:
     """Reads all topics of the given types, from start() to stop().
 
     The reader calls `received` with a topic and its new messages (serialised, in order). The reader calls
-    `missing` with a topic that no longer has a publisher. The reader calls `done` after each read, and all
+    `missing` with a topic that no longer has a publisher. The reader calls `done` after each read, and the
     three functions run on the reader's thread.
     """
 

@@ -16,7 +16,7 @@ ANY = "*"  # This is the type of a subscriber that accepts all types, such as `r
 
 
 def find_connections(master: MasterClient, topic: str) -> Connections:
-    """Return the type of the topic and the nodes on it; only the key "sources" is missing.
+    """Return the type, publishers and subscribers of the topic; the caller adds the key "sources".
 
     Raises GraphError if a request to the master fails.
     """

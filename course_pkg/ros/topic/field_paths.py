@@ -34,7 +34,7 @@ def measurement(message: MessageType) -> str:
 
     Fields in a std_msgs/Header and settings of the sensor, such as `range_min`, are not measurements. Among
     all other fields, the function selects the first float, or else the first integer, or else the first bool.
-    If no such field exists, the function returns the message's first number.
+    If the message has no other fields, the function returns the first number in the message.
     """
     measured = [found for found in _first_numbers(message, _HEADER) if not _SETTING.search(found[0])]
     by_kind = [path for wanted in _NUMBERS for path, kind in measured if kind is wanted]
@@ -44,8 +44,8 @@ def measurement(message: MessageType) -> str:
 def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:
     """Return a function that reads the number at `path` from a message's bytes.
 
-    If the message does not contain the number, the function returns NaN. Raises ValueError if the type does
-    not have this path.
+    If the message does not contain the number, the returned function returns NaN. Raises ValueError if the
+    type does not have this path.
     """
     if path not in numbers(message):
         raise ValueError(f"{message.name} has no number at the path {path!r}")
@@ -68,7 +68,7 @@ def _walk(value: Message, steps: Sequence[int | str]) -> Message:
 
 
 def _first_numbers(message: MessageType, without: str = "") -> Iterator[tuple[str, Kind]]:
-    """Yield the paths and kinds of at most MOST numeric fields; skip fields of the message type `without`."""
+    """Yield the paths and kinds of the first MOST numeric fields, but skip the message type `without`."""
     every = (found for field in message.fields for found in _paths(field, field.name, without))
     return islice(every, MOST)
 

@@ -90,7 +90,7 @@ class MessageReport(TypedDict):
 
 
 class Curve(TypedDict):
-    """The recent points [time in s since the start, value] of a number, and the count of all values."""
+    """Recent points [time in s since the process started, value] of a number, and the count of all values."""
 
     points: list[list[float]]
     count: int
@@ -100,8 +100,8 @@ class Curve(TypedDict):
 class Report(TypedDict, total=False):
     """A report; a key is missing if its value has not changed.
 
-    `trouble` is the error message if the process cannot reach the master, else "". `node` is the name of the
-    process's node. `count` is the number of received messages, `statistics` contains their rate, and
+    `trouble` is an error message if the process cannot reach the master, and "" otherwise. `node` is the name
+    of the process's node. `count` is the number of received messages, `statistics` contains their rate, and
     `messages` contains the new messages.
     """
 

@@ -1,4 +1,4 @@
-"""Statistics of a topic with bounded memory: the rate of its messages, and the recent values of a field."""
+"""Statistics of a topic: the rate of its messages, and recent values of a field. The memory is limited."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.ros.topic.reports import Figures
 WINDOW = 3.0  # A rate is measured over this time in s.
 FEW = 5  # At least this number of messages is used, even if they are older than WINDOW.
 MOST = 5000  # A rate is computed from at most this number of messages.
-# If the last message is older than 2 s and than this number of mean gaps, there are no statistics.
+# There are no statistics if the last message is older than 2 s and older than this number of mean gaps.
 SILENCE = 3.0
 SPAN = 20.0  # A series contains only values that are at most this old (s).
 STEP = 0.1  # At most four values are stored for each time step of this length in s.

@@ -19,7 +19,7 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
 
 TIMEOUT = 0.5  # This is the time limit of a poll in s.
-# The third item of the response contains the statistics of services; in rospy, this item is empty.
+# The third item of the response to getBusStats contains the statistics of services; in rospy, it is empty.
 STATISTICS = "getBusStats"
 
 Callers = dict[str, tuple["ServiceCaller", ...]]
@@ -96,7 +96,7 @@ class ActivityPoller:
             if (peer := self._peers[uris[name]].get(each.connection))
         ]
         callers = {name: found for probe in probes.values() for name, found in _callers(probe).items()}
-        # If no subscriber of a node's connections is known, the counts of this node cannot be used.
+        # The counts of a node cannot be used if no subscriber of its connections is known.
         known = {name for name, found in counts.items() if self._peers[uris[name]] or not found}
         silent = frozenset(node.name for node in snapshot.nodes if node.name not in known)
         return Activity(time.monotonic(), tuple(sorted(traffic)), silent, callers)
@@ -139,9 +139,9 @@ class _Count:
 def _counts(probe: Probe) -> list[_Count] | None:
     """Return how many messages a node has sent on each connection, or None without a valid response.
 
-    For a topic, rospy returns [name, bytes, connections], and roscpp [name, connections]. For a connection,
-    rospy returns [id, bytes, messages, connected], and roscpp [id, bytes, bytes of messages, messages,
-    connected].
+    For a topic, rospy returns [name, bytes, connections], and roscpp returns [name, connections]. For a
+    connection, rospy returns [id, bytes, messages, connected], and roscpp returns [id, bytes, bytes of
+    messages, messages, connected].
     """
     if not probe.answered:
         return None

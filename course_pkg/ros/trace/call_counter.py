@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 # A service has at most this many stored callers. Each run of a command-line tool is a caller with a new name.
 CALLERS = 100
-# (caller, number of calls, time of the latest call in s since the epoch, number of running calls)
+# The tuple contains the caller, the number of its calls, the time of its latest call (s since the epoch), and
+# the number of its running calls.
 CallerCount = tuple[str, int, float, int]
 
 

@@ -38,9 +38,9 @@ class _Collected:
 
 @contextmanager
 def recorded(node: str, uri: str, master: MasterClient) -> Iterator[Recording]:
-    """Record all nodes during the block; `node` and `uri` are the name and the address of the kernel's node.
+    """Record all nodes during the `with` block; `node` and `uri` identify the kernel's node.
 
-    The recording is empty until the block ends.
+    The recording is empty until the `with` block ends.
     """
     recording = Recording(node=node)
     with handovers(node, uri, master):

@@ -100,8 +100,8 @@ class _CountedQueue(list[bytes]):
 class _CountedConnection(QueuedConnection):
     """A connection with a counting queue.
 
-    When rospy takes the messages, it assigns a new list to `_queue`. The new list is also replaced with a
-    counting queue.
+    When rospy starts to send the messages in the queue, it assigns a new list to `_queue`. This class
+    replaces the new list with a counting queue, too.
     """
 
     queued = 0

@@ -1,8 +1,8 @@
 """Send the record of a node to other nodes before the node ends.
 
-Without this record, a recording would not include nodes that run only briefly. A node that makes a recording
-stores its address in a parameter of the master. A node that ends sends its record to this address by XML-RPC.
-A killed node cannot send its record.
+Without the records that ending nodes send, a recording would not include nodes that run only briefly. A node
+that makes a recording stores its address in a parameter of the master. A node that ends sends its record to
+this address by XML-RPC. A killed node cannot send its record.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def hand_over_at_exit() -> None:
 
 @contextmanager
 def handovers(node: str, uri: str, master: MasterClient) -> Iterator[None]:
-    """Let each node that ends during the block send its record to the node at `uri`."""
+    """Let each node that ends during the `with` block send its record to the node at `uri`."""
     parameter = f"{PARAMETER}{node}_{next(recorder().numbers)}"
     own, announced = recorder(), False
     own.recordings += 1
@@ -70,7 +70,8 @@ def hand_over() -> None:
 
 def _hand_over(uri: str) -> None:
     record = json.dumps(recorder().since(time.monotonic() - LONGEST))
-    # The recording node may have ended. Another program may use the port now and send an invalid response.
+    # The node that makes the recording may have ended. Another program may use the port now and send an
+    # invalid response.
     with suppress(OSError, *NO_ANSWER):
         XmlRpcClient(uri, TIMEOUT).ask(KEEP, "/course", rospy.get_name(), record)
 

@@ -1,4 +1,4 @@
-"""Replace a method of rospy with a method that also records actions."""
+"""Replace a method of rospy with a method that also records calls or messages."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ Method = Callable[..., Any]  # rospy has no type annotations.
 
 
 class Hook:
-    """A method of `owner` and the function that returns its replacement.
+    """A method of the object `owner`, and the function that returns a replacement for this method.
 
-    `uses` lists global names that the method's code must contain. A hook fits only if the method has the
-    expected parameters and contains these names.
+    `uses` lists global names that the code of the replaced method must contain. A hook fits only if the
+    method has the expected parameters and contains these names.
     """
 
     def __init__(

@@ -37,7 +37,7 @@ class NodeRecord:
 
 
 class Span:
-    """An action that a process has recorded; match_events() turns it into an event."""
+    """An action, such as a call, that a process has recorded; match_events() converts it to an Event."""
 
     def __init__(self, record: NodeRecord, data: SpanData) -> None:
         self.node = record.node
@@ -66,7 +66,7 @@ class Exchange:
         span.exchange = self
 
     def started(self, kind: str) -> float | None:
-        """Return the time when the first span of this kind began, or None."""
+        """Return the time when the first span of the kind `kind` began, or None if there is none."""
         return next((each.start for each in self.spans if each.kind == kind), None)
 
     @property

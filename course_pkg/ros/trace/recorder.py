@@ -1,4 +1,4 @@
-"""The recorder of a process: the latest actions of its node, and the number of calls of each caller.
+"""The recorder of a process: the latest calls, messages and callbacks, and the call count of each caller.
 
 Times are values of time.monotonic(). On Linux, this function reads CLOCK_MONOTONIC. All processes of a
 machine share this clock, so the times of several nodes can be compared. Sources: clock_gettime(2) and
@@ -36,14 +36,16 @@ LONGEST = 300  # A longer error message is shortened to this number of character
 
 EXCHANGED = (REQUEST, WAIT, RESPONSE)  # These phases of a call use the connection.
 
-# (the client's numeric address, the server's port). Client and server both know these values.
+# A connection is identified by the client's numeric address and the server's port. Client and server both
+# know these values.
 Connection = tuple[Sequence[str | int], int]
-# (the connection, the number of the message on this connection, the name of the other node)
+# A message is identified by its connection and its number on this connection; the string is the name of the
+# other node.
 Transfer = tuple[Connection, int, str]
 
 
 class Span:
-    """One action of a node; `end` is None until the action has ended.
+    """One action of a node, such as a published message; `end` is None until the action has ended.
 
     `transfers` contains the messages of the action, each with its connection and number. `connections` is the
     number of subscribers to which a published message should be sent.
@@ -94,8 +96,8 @@ class CallPart:
 class CallSpan:
     """A call with all its phases.
 
-    All phases of a call are stored in one object, because recording must not make calls slower. `result` is
-    RESPONSE or ERROR, and empty until the call has ended. `transfer` is the connection and number of the
+    All phases of a call are stored in one object, because the recorder must not make calls slower. `result`
+    is RESPONSE or ERROR, and empty until the call has ended. `transfer` is the connection and number of the
     request.
     """
 

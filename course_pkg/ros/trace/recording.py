@@ -1,4 +1,4 @@
-"""A recording of the actions of nodes, as plain data that a program can read without ROS."""
+"""A recording of calls, messages and callbacks, as plain data that a program can read without ROS."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from typing import TypedDict
 
 LOOKUP = "lookup"  # The caller requests the address of a service from the master.
 CONNECT = "connect"  # The caller connects to the server, and they exchange headers.
-REQUEST = "request"  # The caller sends the request.
+REQUEST = "request"
 WAIT = "wait"  # The caller waits until the response arrives.
 RESPONSE = "response"  # The caller has received the response.
 # The call fails. `note` is the error message. `peer` is the server if the server sent this message, or else
 # "".
 ERROR = "error"
-HANDLER = "handler"  # The server handles a request.
-PUBLISH = "publish"  # A node publishes a message.
-CALLBACK = "callback"  # A subscriber's callback runs.
+HANDLER = "handler"
+PUBLISH = "publish"
+CALLBACK = "callback"
 MASTER = "master"  # The peer of a lookup is the master.
 GET_RECORD = "getCourseRecord"  # This method of a node's slave API returns a ProcessRecord.
 NOBODY = "no subscriber was connected"  # The note of a message that had no subscriber.
@@ -59,7 +59,7 @@ class ProcessRecord(TypedDict):
 
 @dataclass(frozen=True)
 class Event:
-    """One action of a node.
+    """One action of a node, such as the lookup of a service.
 
     `name` is the service or topic, and `peer` is the other node. `start` and `end` are in s since the start
     of the recording; `start` is negative for an earlier event. `end` is None if the event was running at the
@@ -87,9 +87,9 @@ class Event:
 class Recording:
     """The events of all nodes on the graph during a `with` block; empty until the block has ended.
 
-    `events` are sorted by their start. `nodes` are the nodes with a record. `unrecorded` gives the reason for
-    each node without a record. `notes` describes all other missing data. `length` is in s, and `node` is the
-    kernel's node.
+    `events` are sorted by their start. `nodes` are the nodes whose records are included. `unrecorded` gives
+    the reason for each node without a record. `notes` describes all other missing data. `length` is in s, and
+    `node` is the kernel's node.
     """
 
     node: str = ""

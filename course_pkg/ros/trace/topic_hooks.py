@@ -108,8 +108,7 @@ class RecordedTopicTransport(TCPROSTransport):
     def write_data(self, data: bytes) -> bool:
         """Send a message.
 
-        The transfer is recorded before the message is sent, because a subscriber may receive the message
-        immediately.
+        The message is recorded before it is sent, because a subscriber may receive the message immediately.
         """
         if not isinstance(data, TaggedBytes) or self.connection is None:
             return bool(TCPROSTransport.write_data(self, data))
@@ -137,7 +136,7 @@ class Batch:
         self._index = 0
 
     def transfers(self, msg: genpy.Message) -> list[Transfer]:
-        """Return a list with the transfer of `msg`; call this method in the order of the batch."""
+        """Return [(connection, message number, publisher)] of `msg`; pass messages in the batch's order."""
         for index in range(self._index, len(self._msgs)):
             if self._msgs[index] is msg and self._connection is not None:
                 self._index = index

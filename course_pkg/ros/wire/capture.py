@@ -1,7 +1,7 @@
 """The bytes of a real call, recorded between a client and a server.
 
-The lookup and the connection go through relays (relay.py), which forward all bytes. The client is rospy's
-transport.
+The lookup and the connection go through relays (relay.py), which forward all bytes. The client is a transport
+object of rospy.
 """
 
 from __future__ import annotations

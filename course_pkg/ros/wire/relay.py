@@ -48,9 +48,9 @@ class RelayedConnection:
         return b"".join(chunk.data for chunk in self.chunks if chunk.from_client is from_client)
 
     def since(self, offset: int, *, from_client: bool) -> float:
-        """Return the arrival time of a byte in s since `opened`.
+        """Return the time in s from `opened` to the arrival of a byte.
 
-        `offset` counts the bytes of this direction, from 0.
+        `offset` is the index of the byte in the data of one direction, from 0.
         """
         count = 0
         for chunk in self.chunks:

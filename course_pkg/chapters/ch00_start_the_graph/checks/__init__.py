@@ -36,7 +36,7 @@ MISSED = "Return how many numbers were published between the two received number
     goals=[NODE, SERVICE, TYPE],
 )
 def read_the_graph(context: CheckContext) -> None:
-    """Compare the names that the student returns with the names on the graph."""
+    """Compare the student's names of the node, the service and the type with the right names."""
     with context.goal(NODE):
         context.expect(
             "the name of the node",
@@ -155,14 +155,14 @@ def read_the_graph(context: CheckContext) -> None:
     needs=["ask_for_volume"],
 )
 def ask_a_question(context: CheckContext) -> None:
-    """Respond with random volumes, so that only a real call returns the right volume."""
+    """Respond with random volumes; the student's function can know a volume only from the response."""
     for _ in range(2):
         name = f"/{context.random.word()}"
         length, width, height = context.random.numbers(3, 0.5, 9.0)
         sides = {"length": length, "width": width, "height": height}
         area, volume = (
             whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
-        )  # A float32 stores these numbers exactly.
+        )  # A float32 stores the area and the volume exactly.
         server = context.serve(
             name, "course_pkg/geometry", lambda _, a=area, v=volume: {"area": a, "volume": v}
         )
@@ -211,7 +211,7 @@ def ask_a_question(context: CheckContext) -> None:
 
 
 def _other_sides(sides: dict[str, float]) -> Hints:
-    """Return hints for a request that does not contain the `sides` with which the function was called."""
+    """Return hints for a request with wrong values; the dict `sides` contains the right values."""
     return [
         (
             lambda actual: 0.0 in actual.values(),
@@ -233,10 +233,7 @@ def _other_sides(sides: dict[str, float]) -> Hints:
 
 
 def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
-    """Return hints for a result that differs from the `volume` of the response.
-
-    `area` is the area in the response.
-    """
+    """Return hints for a returned value that is not `volume`, the volume in the response."""
     multiplied = (
         "Your function multiplied the sides, but this server returns different numbers. Return "
         "the volume from the response of the server."
@@ -281,11 +278,11 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     goals=[RECEIVED, MISSED],
 )
 def count_what_was_missed(context: CheckContext) -> None:
-    """Run the function twice, with different pauses.
+    """Run the student's function twice, with different pauses.
 
-    In each run, a new topic gets consecutive numbers.
+    In each run, the check publishes consecutive numbers on a new topic.
     """
-    # The second pause is longer than the 2 s of the chapter, so that a fixed pause fails.
+    # The second pause is longer than 2 s: a function that always sleeps for 2 s, as in the chapter, fails.
     for shortest in (0.25, 2.2):
         topic = f"/{context.random.word()}"
         first = context.random.integer(1000, 9000)
@@ -361,7 +358,7 @@ def count_what_was_missed(context: CheckContext) -> None:
 
 
 def _no_numbers(publisher: Publisher) -> Hints:
-    """Return hints for a function that does not return."""
+    """Return hints for a student's function that takes too long or raises a timeout error."""
     return [
         (lambda actual: "TimesUp" in actual and any(publisher.subscribers), TOO_LONG),
         *NOT_RECEIVED,
@@ -369,7 +366,7 @@ def _no_numbers(publisher: Publisher) -> Hints:
 
 
 def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int]:
-    """Assert that the function returned three whole numbers, and return them."""
+    """Assert that the student's function returned three whole numbers, and return these numbers."""
     context.require(
         "three numbers are returned",
         holds=isinstance(returned, list) and len(returned) == 3,

@@ -1,4 +1,4 @@
-"""Checks of functions that find services and running publishers; some registered nodes are dead."""
+"""Checks of functions that find a service by its name, and the running publishers of a topic."""
 
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
@@ -42,7 +42,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             f"{wanted}x": others[2],
             wanted: volume,
         }
-        # Register the services in a random order, because the master lists them in this order.
+        # The master lists services in the order of their registration, so register them in a random order.
         servers = {
             name: context.serve(name, GEOMETRY, lambda _, v=named[name]: {"volume": v, "area": v + 1})
             for name in context.random.shuffled([*named])
@@ -127,7 +127,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Call the function with new names, so that a function with a fixed list of results fails."""
+    """Call the student's function with new names; a function with a fixed list of results fails."""
     volumes: list[float | None] = [*context.random.numbers(context.random.integer(2, 4), 1.0, 9.0)]
     missing: list[float | None] = [None] * context.random.integer(1, 3)
     for volume in context.random.shuffled([*volumes, *missing]):
@@ -179,14 +179,14 @@ _NOBODY = [
     goals={RUNNING: 3, "Return an empty list if no running node publishes the topic.": 1},
 )
 def who_really_publishes(context: CheckContext) -> None:
-    """Register publishers of two topics: some of their nodes run, and the others were killed.
+    """Register running nodes and killed nodes as publishers of several topics.
 
     At the end, call the student's function with topics that no running node publishes.
     """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
-    # In each order, a dead node comes between running nodes, so a loop that ends at a dead node misses some
-    # nodes.
+    # In the order of registration and in the order of names, a dead node comes between running nodes. A loop
+    # that ends at a dead node therefore misses some running nodes.
     living, dead = context.random.shuffled(sorted(names[:5])[::2]), sorted(names[:5])[1::2]
     for number, name in enumerate([living[0], dead[0], living[1], dead[1], living[2]]):
         context.fake_node(name, topic, NUMBER, alive=number % 2 == 0, reused=number == 3)
@@ -267,7 +267,7 @@ def _living(context: CheckContext, topic: str) -> object:
     return context.run(
         "living_publishers",
         topic,
-        within=at_this_load(8.0),  # A node without a response is pinged three times, which takes 6 s.
+        within=at_this_load(8.0),  # A node that does not respond gets three pings, which takes 6 s.
         hints=[
             (
                 matches("TimesUp"),

@@ -1,4 +1,4 @@
-"""Checks of the names of nodes: they run the student's commands and compare the names on the graph."""
+"""Checks that start nodes with the student's commands, and examine the names of these nodes on the graph."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ PUBLISHES = (
     goals=[OWN_SERVICE, OWN_NODE],
 )
 def a_measurer_for_each_room(context: CheckContext) -> None:
-    """Run the commands for two rooms, and call both servers."""
+    """Run the student's commands for two rooms, and call the servers that the commands start."""
     rooms = [context.random.word() for _ in range(2)]
     with ExitStack() as running:
         for room in rooms:
@@ -66,7 +66,7 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
     goals=[VIEWER, SUBSCRIBES, PUBLISHES],
 )
 def a_viewer_for_each_arm(context: CheckContext) -> None:
-    """Run the commands for two arms, and compare the names of the nodes and of their topics."""
+    """Run the student's commands for two arms, and compare the names of started nodes and their topics."""
     with ExitStack() as running:
         for arm in (context.random.word() for _ in range(2)):
             before = {node.name for node in context.look().nodes}
@@ -75,9 +75,9 @@ def a_viewer_for_each_arm(context: CheckContext) -> None:
 
 
 def _start(context: CheckContext, running: ExitStack, function: str, name: str, program: str) -> Running:
-    """Call the student's `function` with `name`.
+    """Call the student's function `function` with the argument `name`, and run the returned command.
 
-    Run the returned command; the command ends when `running` is closed.
+    The command ends when the ExitStack `running` is closed.
     """
     command = context.run(function, name).returned()
     words = next(iter(commands_of(command)), [])
@@ -114,9 +114,9 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
 
 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
-    """Assert that the room's node serves the room's service.
+    """Assert that the service and the node of the room `room` have the right names.
 
-    `before` contains the addresses of the services that existed earlier.
+    `before` contains the addresses of the earlier services.
     """
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
     deadline, service = time.monotonic() + START, None
@@ -125,7 +125,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         seen = context.look()
         service = seen.service(wanted)
         others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
-        # Keep the first result, because a busy server may not respond again.
+        # Keep the services that were found first, because a busy server does not always respond again.
         new = new or others
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
@@ -155,7 +155,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
 
 
 def _astray(room: str, found: str) -> str:
-    """Return the hint for the service `found`; the right name is ROOM/measure."""
+    """Return the hint for the wrong service name `found`; the right name is /ROOM/measure."""
     if found == "/measure":
         return (
             "The name of the service is /measure for every room. Set the namespace of the "
@@ -183,7 +183,10 @@ def _astray(room: str, found: str) -> str:
 
 
 def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:
-    """Assert that the new node has the names of this arm's viewer; `before` contains the earlier nodes."""
+    """Assert that the started node and its topics have the right names for the arm `arm`.
+
+    `before` contains the names of the earlier nodes.
+    """
     name, seen = _viewer(context, viewer, before)
     with context.goal(VIEWER):
         context.expect(
@@ -258,7 +261,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
 
 
 def _viewer(context: CheckContext, viewer: Running, before: set[str]) -> tuple[str, Snapshot]:
-    """Return the new node that subscribes to a topic, or "", and the last snapshot."""
+    """Wait for a new node with a subscription; return its name or "", and the last snapshot of the graph."""
     deadline = time.monotonic() + START
     while True:
         seen = context.look()

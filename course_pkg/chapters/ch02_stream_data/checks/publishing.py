@@ -15,14 +15,14 @@ from course_pkg.waiting import at_this_load, wait_until
 WAITS_FOR_EVER = (
     "Wait at most 2 s for a subscriber. Then publish the numbers, even if the topic has no subscriber."
 )
-# These times are in s. The check calls the student's function without a subscriber. The function waits 2 s
-# for a subscriber, and then publishes ALONE numbers in 1.1 s. The check subscribes COMES s after the
-# publisher exists.
+# The check calls the student's function without a subscriber. The function waits 2 s for a subscriber, and
+# then publishes ALONE numbers in 1.1 s. When the publisher exists, the check waits COMES s, and then
+# subscribes.
 NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
 NO_NUMBERS = "If there is no subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy machine.
-# The call must take less than this many s longer than the publishing of the numbers, even on a busy machine.
-# A function that always sleeps for 2 s takes longer.
+# In addition to the time for publishing the numbers, the student's function may take at most this many s. A
+# function that always sleeps for 2 s takes longer.
 TOO_LONG = 1.9
 AT_ONCE = 0.3  # The fastest of several calls may take at most this time in s.
 TOO_SOON = "The wait for a subscriber is too short. If there is no subscriber, wait for the full 2 s."
@@ -88,7 +88,7 @@ def count_aloud(context: CheckContext) -> None:
 
 
 def _counts_alone(context: CheckContext, topic: str) -> None:
-    """Start the function without a subscriber; subscribe later, when the function must be publishing."""
+    """Start the student's function without a subscriber; subscribe when the function must already publish."""
     late: list[Subscription] = []
 
     def come() -> None:
@@ -229,9 +229,9 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goals=[LATCHED, "Publish each change once. Do not publish a value again if it has not changed."],
 )
 def a_notice(context: CheckContext) -> None:
-    """Call set() while there is no subscriber, while there is one, and before a late one connects.
+    """Call set() without a subscriber and with a subscriber; another subscriber connects after the calls.
 
-    On one topic, the first value is 0.
+    On one topic, the first value is 0, which must also be published.
     """
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
@@ -263,7 +263,7 @@ def a_notice(context: CheckContext) -> None:
     _set(context, topic, second)
     _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
     _set(context, topic, third)
-    # Wait for the third value: if the publisher has a short queue, the next value could replace it.
+    # Wait until the third value arrives, because the next value could replace it in a short publisher queue.
     subscriber.wait(3, within=SOON)
     _set(context, topic, second)
     _receives(
@@ -277,7 +277,7 @@ def a_notice(context: CheckContext) -> None:
 
 
 def _set(context: CheckContext, topic: str, value: float) -> float:
-    """Call set(value) of the student's class Notice for `topic`; return the duration of this call in s."""
+    """Call set(value) of the student's object Notice(topic); return the duration of the call in s."""
     hints = [
         (
             matches("TimesUp"),
@@ -290,7 +290,7 @@ def _set(context: CheckContext, topic: str, value: float) -> float:
 
 
 def _subscribed(context: CheckContext, topic: str) -> Subscription:
-    """Subscribe to `topic`; a latched publisher then sends its last message at once."""
+    """Subscribe to `topic`; a latched publisher then sends its last message immediately."""
     subscription = context.subscribe(topic, "std_msgs/Float64")
     hint = "Create a rospy.Publisher for the given topic, and do not unregister this publisher."
     subscription.published(hints=[(matches("no publisher"), hint)])
@@ -298,7 +298,7 @@ def _subscribed(context: CheckContext, topic: str) -> Subscription:
 
 
 def _receives(context: CheckContext, subscription: Subscription, values: list[float], assertion: str) -> None:
-    """Assert that these values arrive, and that no further message arrives in the next 0.3 s."""
+    """Assert that the values `values` arrive, and that no further message arrives in the next 0.3 s."""
     subscription.wait(len(values), within=SOON)
     subscription.during(0.3)
     received = [arrival.fields["data"] for arrival in subscription.arrivals]

@@ -1,4 +1,4 @@
-"""Checks of subscribers: one node mirrors joint states, and one node needs two different queues."""
+"""Checks of subscribers: a node that mirrors joint states, and a node with two different queue sizes."""
 
 import statistics
 import threading
@@ -52,7 +52,7 @@ def witness(message):
 FIELDS = ("name", "position", "velocity")
 # A call of draw() takes DRAWING s, and a call of prepare() takes PREPARING s.
 DRAWING, PREPARING = 0.25, 0.02
-# A function must return within this time in s; on an idle machine, a function returns after some ms.
+# The student's function must return within this time in s; on an idle machine, it takes a few ms.
 RETURNS = 1.5
 OLDEST = 0.5  # OLDEST is the maximum age in s of an angle when a drawing begins.
 ANGLES, ORDERS = 60, 20
@@ -81,9 +81,9 @@ NEVER_RETURNS = (
 
 
 class Work:
-    """A callable that sleeps for `pause` s.
+    """A replacement for draw() or prepare() that sleeps for `pause` s.
 
-    The object records the beginning of each call, and the number of simultaneous calls.
+    The object records the beginning of each call, and the maximum number of simultaneous calls.
     """
 
     def __init__(self, pause: float) -> None:
@@ -124,7 +124,7 @@ NEWEST, ALL_ORDERS = (
     goals={MIRRORED: 3, "Publish the new message immediately, and do not change the received message.": 1},
 )
 def a_mirror(context: CheckContext) -> None:
-    """Publish random joint states, and compare each of them with the mirrored message."""
+    """Publish random joint states, and compare each joint state with its mirrored message."""
     source, target = (f"/{context.random.word()}" for _ in range(2))
     subscription = context.subscribe(target, JOINTS)
     with _begun(
@@ -192,8 +192,8 @@ def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[J
 def _stances(context: CheckContext, count: int) -> list[Fields]:
     """Return `count` messages.
 
-    The last states have fewer joints. If the student's node keeps values of earlier states, its messages are
-    then wrong. One state has no velocities.
+    The joint states in the second half have fewer joints. If the student's node stores values of earlier
+    joint states, its messages are then wrong. One joint state has no velocities.
     """
     names = [context.random.word() for _ in range(4)]
     counts = [4 if number < count / 2 else 3 for number in range(count)]
@@ -227,7 +227,7 @@ def _of_both_signs(context: CheckContext, count: int) -> list[float]:
 def _begun(
     context: CheckContext, start: str, *args: object, worded: str, topics: Sequence[str]
 ) -> Iterator[None]:
-    """Call the student's function, which returns its subscribers; at the end, unregister them."""
+    """Call the student's function, which returns its subscribers; after the block, unregister them."""
     context.prepare(KEEPER)
     try:
         started = context.run(
@@ -420,7 +420,7 @@ def two_queues(context: CheckContext) -> None:
         )
         arm.finish(10.0)
         customers.finish(10.0)
-        # Wait until the calls with the last values have ended.
+        # Wait until draw() and prepare() have handled the last values.
         time.sleep(max(2 * DRAWING, ORDERS * PREPARING))
         drawn, prepared = [*draw.done], [value for _, value in prepare.done]
     with context.goal(NEWEST):
@@ -432,7 +432,7 @@ def two_queues(context: CheckContext) -> None:
 def _drawn(
     context: CheckContext, at_once: int, drawn: list[tuple[float, Value]], sent: Mapping[float, float]
 ) -> None:
-    """Assert that each drawn angle was the newest published angle at the time of its drawing.
+    """Assert that each drawn angle was the newest published angle when the drawing began.
 
     `drawn` contains the time and the angle of each drawing. `sent` maps each published angle to its
     publishing time.

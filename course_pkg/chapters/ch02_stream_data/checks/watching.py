@@ -1,4 +1,4 @@
-"""The student's watch distinguishes a running stream from a stream that has ended."""
+"""Checks of the student's class Watch, which distinguishes a running stream from a stream that has ended."""
 
 import time
 
@@ -29,7 +29,7 @@ def end():
     watches.clear()
 """
 WORDS = ("waiting", "running", "ended")
-LIMIT = 1.0  # After this time in s without a message, a stream has ended.
+LIMIT = 1.0  # After this time in s without a message, a stream counts as ended.
 AT_ONCE = 0.4  # The fastest of several calls may take at most this time in s.
 RUNS = 'Return "waiting" before the first message, and "running" while messages arrive.'
 
@@ -43,9 +43,9 @@ RUNS = 'Return "waiting" before the first message, and "running" while messages 
     goals=[RUNS, 'Return "ended" when no message has arrived for more than 1 s.'],
 )
 def watch_a_stream(context: CheckContext) -> None:
-    """Call state() of one watch before, during and after a stream.
+    """Call state() of one Watch object before, during and after a stream of messages.
 
-    Call state() of another watch only during a stream.
+    Call state() of another Watch object only during a stream.
     """
     topic, unasked = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(KEEPER)
@@ -64,7 +64,8 @@ def watch_a_stream(context: CheckContext) -> None:
         time.sleep(1.3)
         _says(context, topic, 'before the first message, the state is "waiting"', "waiting", _BEFORE)
         publisher = _speaks(context, unasked)
-        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # Then the watch has received messages.
+        # After six published messages, the student's Watch object has received some messages.
+        wait_until(lambda: len(publisher.sent) > 5, 5.0)
         _says(context, unasked, "it receives messages before the first call of state()", "running", _UNASKED)
         _says(context, topic, "two watches are independent", "waiting", _APART)
         _runs(context, topic)
@@ -76,14 +77,14 @@ def watch_a_stream(context: CheckContext) -> None:
 
 
 def _speaks(context: CheckContext, topic: str, number: int = 7) -> Publisher:
-    """Publish ten messages per second on the topic that the student's watch observes."""
+    """Publish ten messages per second on the topic that the student's Watch object observes."""
     publisher = context.publish(topic, "std_msgs/UInt32", [{"data": number}], every=0.1)
     publisher.listened(hints="In `__init__`, create a rospy.Subscriber of type UInt32 for the topic.")
     return publisher
 
 
 def _runs(context: CheckContext, topic: str) -> None:
-    """Publish for some time; then stay registered as a publisher, but publish nothing."""
+    """Publish messages for some time, and then publish nothing; the publisher stays registered."""
     publisher = _speaks(context, topic, number=0)
     time.sleep(0.5)
     assertion = 'while messages arrive, the state is "running"'
@@ -103,8 +104,8 @@ def _runs(context: CheckContext, topic: str) -> None:
         before=end,
     )
     time.sleep(max(end + 0.1 - time.monotonic(), 0.0))
-    # On a busy machine, the last message may reach the watch late, so the check waits until the state
-    # changes.
+    # On a busy machine, the student's Watch object may receive the last message late, so the check waits
+    # until the state changes.
     wait_until(lambda: _asked(context, topic).returned() != "running", at_this_load(0.1))
     ended = 'more than 1 s after the last message, the state is "ended"'
     _says(context, topic, ended, "ended", _END, times=context.random.integer(3, 6))
@@ -127,8 +128,9 @@ def _says(
 ) -> None:
     """Call state() `times` times, and assert that each call returns `word`.
 
-    Two calls are separated by a pause of `pause` s. If a call ends after the time `before`, each of the three
-    possible strings is accepted. Only the fastest call has to be fast, because the machine may be busy.
+    After each call, the check waits `pause` s. If a call ends after the time `before` (time.monotonic()), any
+    of the three states is accepted. One call must be fast; the other calls may be slow, because the machine
+    may be busy.
     """
     took = []
     for _ in range(times):

@@ -1,4 +1,4 @@
-"""The checks of chapter 03: three designs for one task, mistakes in designs, and the right designs."""
+"""The checks of chapter 03: poll, greet customers from a topic, find design mistakes, and choose designs."""
 
 from course_pkg.chapters.ch03_choose.checks.deciding import decide_and_defend
 from course_pkg.chapters.ch03_choose.checks.greeting import greet_everyone

@@ -10,7 +10,7 @@ from course_pkg.checking.plain_values import of_kind
 DESIGNS = ("topic", "service", "action")
 REASONS = ("answer", "many", "newest", "seldom", "latched", "long")
 
-# For each task, the dict contains the right designs and, for each of these designs, the right reasons.
+# For each task, this dict maps each right design to the right reasons for this design.
 JOBS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "wheel speed": {"topic": ("newest", "many")},
     "open the gripper": {"service": ("answer",), "action": ("answer", "long")},
@@ -72,7 +72,7 @@ HOLLOW: Mapping[str, str] = {
     needs=["decisions"],
 )
 def decide_and_defend(context: CheckContext) -> None:
-    """For each task, compare first the chosen design, and then the chosen reason."""
+    """For each task, compare the chosen design, and then the chosen reason, with the right ones."""
     decisions = context.read("decisions")
     context.require(
         "there is a decision for each job",

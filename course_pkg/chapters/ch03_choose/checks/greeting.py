@@ -1,4 +1,4 @@
-"""03.2: each customer on a topic is greeted once, in the right order."""
+"""03.2: a function that greets each customer on a topic once, in the right order."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def begin(start, *topics):
 def end():
     for name, names in ear.names.items():
         names[name] = ear.say
-"""  # This code reports the calls, because the greetings on the topic do not show whether two calls overlap.
+"""  # This code records the calls of say_good_day(): the topic does not show whether two calls overlap.
 MIXED_UP = (
     "Your function publishes on `customers`, which is the wrong topic. Subscribe to `customers`, "
     "and publish on `greetings`."
@@ -55,11 +55,11 @@ LOST = (
 
 
 class Greetings:
-    """Records the calls of say_good_day(), and the number of simultaneous calls."""
+    """Records the calls of say_good_day(), and the maximum number of simultaneous calls."""
 
     def __init__(self) -> None:
-        # `said` contains the argument of each call. If an argument is not a number, the list contains the
-        # name of its type.
+        # `said` contains the argument of each call of say_good_day(), or the argument's type if it is not a
+        # number.
         self.said: list[Value] = []
         self.at_once = 0
         self._busy = 0
@@ -104,9 +104,9 @@ GREETED = (
     },
 )
 def greet_everyone(context: CheckContext) -> None:
-    """Publish five customers in quick succession; two of the five are published twice.
+    """Publish the numbers of five customers quickly; publish two of these numbers twice.
 
-    After a pause, publish two new customers, and one customer again.
+    Later, publish the numbers of two new customers, and repeat the number of an earlier customer.
     """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     numbers = context.random.integers(7, 10, 9000)
@@ -129,9 +129,9 @@ def _greets(
     numbers: list[int],
 ) -> None:
     if numbers[2] > max(numbers[:2]):
-        # numbers[2] is the last number that _told() publishes. A subscriber with queue_size=1 receives this
-        # message. A node that stores only the largest number ignores the message, because an earlier number
-        # is larger. Therefore, the check can distinguish these two mistakes, and gives the right hint.
+        # The check publishes numbers[2] last, so a subscriber with queue_size=1 receives this number. An
+        # earlier number must be larger, so that a node that stores only the largest number ignores
+        # numbers[2]. The check can then distinguish these two mistakes.
         numbers[0], numbers[2] = numbers[2], numbers[0]
     first, later = numbers[:5], numbers[5:]
     start, call = Its("start_greeting"), "start_greeting()"
@@ -169,7 +169,7 @@ def _greets(
 def _starts_again(context: CheckContext, number: int) -> None:
     """Call start_greeting() again with other topics.
 
-    The second call must not use the customers of the first call.
+    The second call must also greet a customer whom the first call has already greeted.
     """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     subscription = context.subscribe(greetings, NUMBER)
@@ -217,7 +217,8 @@ def _greeted(
 ) -> None:
     """Assert that each customer in `numbers` was greeted once, in the right order."""
     subscription.until(lambda arrivals: set(numbers) <= {each.fields["data"] for each in arrivals}, 8.0)
-    subscription.during(2 * GREETING + 0.2)  # A wrong second greeting would arrive in this time.
+    # A wrong second greeting of a customer would arrive within this time.
+    subscription.during(2 * GREETING + 0.2)
     seen = [each.fields["data"] for each in subscription.arrivals]
     said = [*greetings.said]
     context.require(

@@ -1,4 +1,4 @@
-"""03.3: the mistake in the design in each of six reports."""
+"""03.3: find the design mistake in each of six reports."""
 
 from __future__ import annotations
 

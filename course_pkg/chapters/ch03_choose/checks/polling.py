@@ -13,7 +13,7 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 DETECT = "course_pkg/DetectCustomer"
-SLACK = 0.7  # On a busy machine, a poll may take this many s longer than on an idle machine.
+SLACK = 0.7  # On a busy machine, a call of poll() may take this many s longer.
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
 NO_PAUSE = "Pause for 1 / rate seconds between two calls."
 NO_END = (
@@ -31,7 +31,7 @@ COUNTED = (
 class Counter:
     """A detector with one customer.
 
-    The customer comes `after` s from now, and each response takes `slow` s.
+    The customer comes `after` s after this object is created. Each response is delayed by `slow` s.
     """
 
     number: int
@@ -41,7 +41,7 @@ class Counter:
     opened: float = field(default_factory=time.monotonic)
 
     def answer(self, _: Message) -> Act:
-        """Return the response to a request at the current time."""
+        """Record the time of a request, and return the response."""
         self.asked.append(time.monotonic())
         there = self.asked[-1] - self.opened >= self.after
         answer: dict[str, Json] = {"detected": there, "number": self.number if there else 0}
@@ -60,9 +60,9 @@ FOUND = "Return the number of a customer who is there, or who comes later."
     goals=[FOUND, "Return None when the time is over. Make no more calls than the rate allows."],
 )
 def poll_with_a_deadline(context: CheckContext) -> None:
-    """Call poll() with a detector whose customer is present, and with one whose customer comes later.
+    """Call poll() while a customer is there, and before a customer comes.
 
-    At the end, call poll() with a fast and with a slow detector that never have a customer.
+    At the end, no customer comes: call poll() with a fast detector, and then with a slow detector.
     """
     _one_who_is_there(context)
     _one_who_comes(context)

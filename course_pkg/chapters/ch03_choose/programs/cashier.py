@@ -23,14 +23,14 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import CashierReport, CashierReportResponse, DetectCustomer
 
 DESIGNS = ("poll", "topic", "wait")
-KEPT = 10_000  # The report contains at most this many times.
+KEPT = 10_000  # The report contains data about at most this many greetings.
 GRACE = 2.0  # A call may take this many s longer than `~patience`.
 AGAIN = 0.5  # After a failed call, the cashier waits this many s before the next call.
-CONNECTED = 5.0  # The cashier waits this many s for a publisher before it serves the report.
+CONNECTED = 5.0  # The cashier waits at most this many s for a publisher, and then serves the report.
 
 
 class Cashier:
-    """Greets customers, and stores the number and the time of each greeting."""
+    """Greets customers; for each greeting, stores the customer's number and the time."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -39,11 +39,11 @@ class Cashier:
         self._informed: deque[rospy.Time] = deque(maxlen=KEPT)
         self._publisher = rospy.Publisher("greetings", UInt32, queue_size=100)
         self._detect = BoundedProxy("detect_customer", DetectCustomer)
-        # Without the cancellation, the shutdown would wait for the end of the current call.
+        # A shutdown cancels the current call; otherwise, the shutdown would wait for the end of the call.
         rospy.on_shutdown(self._detect.cancel)
 
     def handle_report(self, _: object) -> CashierReportResponse:
-        """Return the numbers and times of all greetings."""
+        """Return a report with the customers' numbers and the times of all greetings."""
         with self._lock:
             numbers, times = zip(*self._greeted, strict=True) if self._greeted else ((), ())
             return CashierReportResponse(
@@ -65,9 +65,9 @@ class Cashier:
         rospy.spin()
 
     def run_client(self, patience: float, pause: float) -> None:
-        """Request new customers until the node is shut down.
+        """Call the detector and greet new customers until the node is shut down.
 
-        A series of requests begins every `pause` s, and ends when there is no new customer.
+        A series of calls begins every `pause` s, and ends when there is no new customer.
         """
         self.offer_report()
         due = time.monotonic()
@@ -85,7 +85,7 @@ class Cashier:
             rospy.sleep(due - time.monotonic())
 
     def offer_report(self) -> None:
-        """Serve the report; the cashier is ready when this service exists."""
+        """Serve ~report; when this service exists, the cashier is ready."""
         with undisturbed():
             rospy.Service("~report", CashierReport, self.handle_report)
 

@@ -43,14 +43,14 @@ class Detector:
             self._publisher.publish(customer.number)
 
     def handle_detect(self, request: DetectCustomerRequest) -> DetectCustomerResponse:
-        """Return the first customer whose number is above `after`.
+        """Return the first customer whose number is higher than the request's field `after`.
 
         If no such customer comes within `patience` s, the field `detected` of the response is False.
 
         Raises ServiceException if `patience` is out of range, if too many callers are waiting, or if the
         camera sends no messages.
         """
-        # NaN is refused, too, because a comparison with NaN is False.
+        # This test refuses NaN, because each comparison with NaN is False.
         if not 0.0 <= request.patience <= LONGEST:
             message = f"a wait of {request.patience:g} s is not possible"
             wrong = FieldError("patience", request.patience, f"seconds, from 0 to {LONGEST:g}", message)
@@ -75,7 +75,7 @@ class Detector:
 
     @contextmanager
     def _place(self) -> Iterator[None]:
-        """Increase the number of waiting callers during the block.
+        """During the `with` block, count one more waiting caller.
 
         Raises ServiceException if too many callers are waiting.
         """
@@ -93,7 +93,7 @@ def main() -> None:
         return
     with undisturbed():
         detector = Detector()
-    # Without this wait, the first call would fail, because there is no message yet.
+    # Wait for the camera's first message; without this message, the first call would fail.
     wait_until(detector.has_data, SILENCE)
     with undisturbed():
         rospy.Service("detect_customer", DetectCustomer, detector.handle_detect)

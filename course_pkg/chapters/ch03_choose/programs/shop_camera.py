@@ -48,7 +48,7 @@ class ShopCamera:
         return LetInResponse(first=visits[0].number if visits else 0, comes=comes)
 
     def watch(self) -> None:
-        """Publish the customers at the counter until the node is shut down."""
+        """Publish the numbers of the customers at the counter until the node is shut down."""
         while not rospy.is_shutdown():
             with self._changed:
                 now = time.time()
@@ -62,9 +62,9 @@ class ShopCamera:
         with self._changed:
             visits = self._counter.let_in(time.time(), after, stay)
             self._changed.notify()
-        # A client waits for a number that is higher than the last number that it received. Therefore, the
-        # numbers must continue after a restart of this node. If no master is running, the parameter cannot be
-        # stored; the numbers then start again at 1 after a restart.
+        # A client waits for a customer whose number is higher than the last number that it received.
+        # Therefore, the numbers must continue after a restart of this node. If no master is running, the
+        # parameter ~number cannot be stored; after a restart, the numbers then start at 1.
         with suppress(OSError, rospy.ROSException):
             rospy.set_param("~number", self._counter.number)
         return visits

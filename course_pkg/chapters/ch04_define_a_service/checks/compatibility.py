@@ -1,6 +1,6 @@
-"""Checks the student's results about compatible definitions.
+"""The check of a function that returns whether two service definitions are compatible.
 
-The check compares the results with the MD5 sums of random definitions.
+The check compares the function's results with the MD5 sums of random definitions.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ class Pair:
     deadline=40.0,
 )
 def who_talks_to_whom(context: CheckContext) -> None:
-    """Call the function with pairs of definitions; some pairs have equal MD5 sums, and others do not."""
+    """Call the student's function with pairs of definitions; only some pairs have equal MD5 sums."""
     again = context.random.shuffled(_pairs(context))[: context.random.integer(6, 9)]
-    # The order is random, so that a function with a fixed list of results fails.
+    # The order of the pairs is random, so that a function with a fixed list of results fails.
     for pair in (*_pairs(context), *again):
         for server, client in context.random.shuffled(
             [(pair.server, pair.client), (pair.client, pair.server)]

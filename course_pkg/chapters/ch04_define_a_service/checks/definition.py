@@ -1,4 +1,4 @@
-"""Checks of the definition: they parse it in the same way as ROS, compare each field, and build it."""
+"""The check of Lamp.srv: it parses the file in the same way as ROS, compares each field, and builds it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FIELDS = "Write the fields of the request and the response, and the types of the
     goals={FIELDS: 3, "Write the constants of the request.": 1},
 )
 def the_lamp(context: CheckContext) -> None:
-    """Parse the text in the same way as ROS, and compare it with the description.
+    """Parse the student's Lamp.srv in the same way as ROS, and compare it with the exercise's description.
 
     At the end, build the definition in another folder.
     """
@@ -180,7 +180,7 @@ def _about_constants(wanted: list[str], found: list[str], below: list[str], text
 
 
 def _line(text: str, name: str) -> str:
-    """Return text such as "Line 3: " for the line that declares `name`, or "" if no line declares it."""
+    """Return a prefix with the number of the line that declares `name`, or "" if no line declares it."""
     for line in lines(text):
         if any(word.text.partition("=")[0] == name for word in line.words()[1:]):
             return f"Line {line.number}: "

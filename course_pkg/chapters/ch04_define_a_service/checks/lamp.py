@@ -1,4 +1,4 @@
-"""The complete package of chapter 04's exercises, and functions that build a package with student files."""
+"""The complete package of chapter 04's exercises, and functions that build it with the student's files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from course_pkg.workspace.fault import locate
 
 PACKAGE = "src/lamp_services"
 TYPE = "lamp_services/Lamp"
-# A build step may use this CPU time in s and write files of this size in KiB; it needs about 1 s of CPU time.
+# For each build step, -t limits the CPU time in s, and -f limits the size of a file in KiB. A step needs
+# about 1 s of CPU time.
 LIMITS = "ulimit -t 6 -f 100000"
 # The whole build may take this many s; a build takes 1.5 s on an idle machine and 20 s on a very busy
 # machine.
@@ -74,7 +75,7 @@ SOUND = {
     f"{PACKAGE}/srv/Lamp.srv": DEFINITION,
     f"{PACKAGE}/package.xml": MANIFEST,
     f"{PACKAGE}/CMakeLists.txt": LISTS,
-    # The student's CMakeLists.txt may install this file.
+    # A student's CMakeLists.txt can install this file, so the file must exist.
     f"{PACKAGE}/scripts/lamp_server.py": "#!/usr/bin/env python3\n",
 }
 
@@ -101,9 +102,9 @@ def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
 
 
 def md5_in(folder: Folder) -> tuple[str, str]:
-    """Import the generated type from the build in `folder`; return its MD5 sum and "".
+    """Return the MD5 sum of the type that was built in `folder`, and the output of a failed import.
 
-    If the import fails, return "" and the output of the command.
+    If the import succeeds, the output is ""; if the import fails, the MD5 sum is "".
     """
     line = "python3 -c 'from lamp_services.srv import Lamp; print(Lamp._md5sum)'"
     done = folder.command("bash", "-c", f". devel/setup.bash && {line}", within=10.0, worded=line)
@@ -111,7 +112,7 @@ def md5_in(folder: Folder) -> tuple[str, str]:
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
-    """Return `fault` with the student's file as its file.
+    """Return a copy of the fault `fault` with the student's file as the wrong file.
 
     The check's own files are correct, so the mistake is in the student's file.
     """

@@ -73,7 +73,7 @@ def _why_no_type(text: str) -> str:
 
 
 def _about(text: str, name: str, reason: str) -> str:
-    """Return a hint that the command is missing, or occurs only in a comment."""
+    """Return a hint that the command `name` is missing, or occurs only in a comment."""
     for each in cmake_commands(text):
         if each.name == name and each.is_comment:
             return f"In line {each.line}, {name} is only a comment. Remove the #. {reason}"

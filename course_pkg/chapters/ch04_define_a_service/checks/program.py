@@ -16,7 +16,7 @@ from course_pkg.workspace import explain
 
 NAME = "lamp_server.py"
 FILE = f"{PACKAGE}/scripts/{NAME}"
-# The program must serve within this many s; it takes 1 s on an idle machine.
+# The program must offer /lamp within this many s; it takes 1 s on an idle machine.
 STARTING = 20.0
 LOOK = 0.1  # LOOK is the time in s between two snapshots of the graph.
 
@@ -77,7 +77,7 @@ STARTED = "Write a program that rosrun can start, and that serves /lamp with the
     goals=[STARTED, "For each mode, return the response that the exercise describes."],
 )
 def the_program(context: CheckContext) -> None:
-    """Build a copy, run its program with other names for the node and the service, and call the service."""
+    """Build a copy of the package, run its program with new node and service names, and call the service."""
     require_shebang(
         context,
         FILE,
@@ -123,7 +123,7 @@ def _run_bit(context: CheckContext, folder: Folder) -> None:
 
 
 def _serves(context: CheckContext, running: Running, name: str, node: str) -> None:
-    """Wait until the program serves `name`; otherwise, report what happened."""
+    """Wait until the program serves the service `name`; if it does not do so in time, report the reason."""
     deadline = time.monotonic() + STARTING
     while context.look().service(name) is None:
         if running.status is not None or time.monotonic() > deadline:
@@ -170,9 +170,9 @@ def _why_not(status: int | None, printed: str, others: list[str]) -> str:
 
 
 def _own_line(printed: str) -> str:
-    """Return a sentence that quotes the wrong line of the student's script.
+    """Return a sentence with the number of the wrong line in the student's script.
 
-    If the line is not known, return "".
+    If the number is not known, return "".
     """
     numbers = re.findall(rf'{re.escape(NAME)}", line (\d+)', printed)
     return f"The error occurred in line {numbers[-1]} of {NAME}." if numbers else ""

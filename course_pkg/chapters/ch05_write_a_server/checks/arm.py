@@ -16,9 +16,9 @@ from course_pkg.waiting import at_this_load, wait_until
 
 FILE = "arm.py"
 MOVE, MAINTENANCE = "/move_arm", "/maintenance"
-STARTS = 8.0  # The program must serve within this many s; it takes 0.5 s on an idle machine.
+STARTS = 8.0  # The program must offer both services within this many s; it takes 0.5 s on an idle machine.
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
-IMPORTED = 77  # An import has this exit status if it ends without sys.exit or os._exit.
+IMPORTED = 77  # The import command has this exit status, unless the imported file ends the process itself.
 IMPORT = f"import arm; raise SystemExit({IMPORTED})"
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -59,7 +59,6 @@ def close_for_maintenance(context: CheckContext) -> None:
 
 
 def _serves(context: CheckContext, program: Running) -> None:
-    """Assert that the program starts and serves both services."""
 
     def ready() -> bool:
         seen = context.look()
@@ -126,7 +125,7 @@ def _works(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, maintenance: Service, moves: int) -> None:
-    """Close, open and move the arm in a random order; a program with a fixed list of responses then fails."""
+    """Close and open /move_arm in a random order, and call it when it is open."""
     closed = False
     for _ in range(context.random.integer(5, 8)):
         data = context.random.choice([True, False])

@@ -11,8 +11,8 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-# The relative error of a float32 is less than 1e-7. The error of a number that was rounded to two decimals is
-# usually larger than this limit.
+# The relative error of a float32 is less than 1e-7. If a number was rounded to two decimals, its relative
+# error is usually larger than NEAR.
 NEAR = 1e-5
 # A message may contain at most this many numbers. If a message contains many numbers, one of them may equal
 # the right value by chance.
@@ -130,8 +130,8 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
             near=1e-3,
         )
     context.fulfilled(MEASURED)
-    # A float32 stores these numbers exactly. No number is an integer, so a message must contain the decimals,
-    # too.
+    # A float32 stores the negative sides exactly. No negative side is a whole number, so the error message
+    # must contain decimals.
     depths = [*(-depth - 0.5 for depth in context.random.integers(2, 1, 49)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})
@@ -146,7 +146,7 @@ def _box(context: CheckContext, given: Mapping[str, float]) -> dict[str, float]:
 
 
 def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str, float]) -> None:
-    """Assert that the box is refused.
+    """Assert that a box is refused; `negative` contains its negative sides and their values.
 
     The error message must contain the name of the first negative side.
     """
@@ -202,9 +202,9 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 
 
 def _unclear(named: list[str], numbers: list[float], side: str, value: float, reason: str) -> str:
-    """Return the hint for a message without the negative `side` and its `value`, or with other sides, too.
+    """Return the hint for a wrong error message; a right message names only the side `side` and its `value`.
 
-    `named` contains the sides in the message, and `numbers` contains its numbers.
+    `named` contains the sides in the error message, and `numbers` contains the numbers in this message.
     """
     if len(numbers) > MANY:
         return "The message contains too many numbers. Write only the value of the negative side."

@@ -174,7 +174,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
 
 
 def _starts_from_zero(context: CheckContext) -> None:
-    """Call a new Counter() once while the count of /count is not 0; the new counter must return 1.
+    """While the count of /count is not 0, call a new Counter() once; the result must be 1.
 
     If the student has no class Counter, nothing is tested.
     """

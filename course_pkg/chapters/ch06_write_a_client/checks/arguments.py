@@ -5,7 +5,7 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 IS_LIST = """
 def is_list(function, *args):
     return isinstance(function(*args), list)
-"""  # A check receives a tuple as a list, so only code in the kernel sees the difference.
+"""  # A check receives a tuple as a list, so only code in the kernel can distinguish a tuple from a list.
 FOR_ROS = "Arguments with := are for ROS. Use rospy.myargv(argv), which returns all other arguments."
 NUMBERS = "Return the three numbers as a list, and ignore arguments for ROS."
 
@@ -21,9 +21,9 @@ NUMBERS = "Return the three numbers as a list, and ignore arguments for ROS."
     goals=[NUMBERS, "Return None if there are not exactly three numbers."],
 )
 def read_the_arguments(context: CheckContext) -> None:
-    """Call the function with valid arguments, also together with arguments for ROS.
+    """Call the student's function with valid arguments, without and with additional arguments for ROS.
 
-    Later, call the function with too few arguments, with too many arguments, and with a word.
+    Later, call the student's function with too few numbers, with too many numbers, and with a word.
     """
     name_first = (
         "The first item of the list is the name of the program. Read the sides from the second item on."
@@ -138,7 +138,7 @@ def read_the_arguments(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, program: str) -> None:
-    """Mix valid and invalid lists of arguments, so that a program with a fixed list of results fails."""
+    """Use valid and invalid arguments in a random order; a function with a fixed list of results fails."""
     counts = [3] * context.random.integer(2, 4) + [2] * context.random.integer(1, 2) + [4, 5]
     for count in context.random.shuffled(counts):
         numbers = context.random.numbers(count, 0.5, 9.0)

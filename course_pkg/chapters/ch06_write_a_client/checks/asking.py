@@ -1,4 +1,4 @@
-"""The client with a single call."""
+"""06.1: the client that makes a single call."""
 
 from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
 from course_pkg.checking import ANYTHING, CheckContext, Refuse, matches, part
@@ -16,7 +16,7 @@ RETURNED = "Return the area and the volume from the response."
     goals=[CALLED, RETURNED],
 )
 def the_geometry_client(context: CheckContext) -> None:
-    """Respond with random numbers, so that only a real call returns the right numbers."""
+    """Respond with random numbers; the student's function can know these numbers only from the response."""
     for _ in range(2):
         name = f"/{context.random.word()}"
         length, width, height = context.random.numbers(3, 0.5, 9.0)

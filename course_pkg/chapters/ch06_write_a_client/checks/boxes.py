@@ -1,4 +1,4 @@
-"""Code that several of the clients' checks use."""
+"""Functions that several checks of chapter 06 use."""
 
 from course_pkg.checking import CheckContext, Its
 from course_pkg.checking.plain_values import Value
@@ -34,7 +34,7 @@ def interrupted(function, *args):
 
 
 def stops(context: CheckContext, function: str, *args: Value, catch: str) -> None:
-    """Assert that an interrupt ends the student's function while it waits.
+    """Assert that an interrupt ends the student's function while the function waits.
 
     The student's function should catch only the error `catch`.
 
@@ -57,6 +57,6 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
 def volumes(context: CheckContext, count: int) -> list[float]:
     """Return volumes that a float32 stores exactly.
 
-    The volumes are not whole numbers, so that the check notices rounding.
+    The volumes are not whole numbers, so that a rounded result is wrong.
     """
     return [whole + 0.375 for whole in context.random.integers(count, 1000, 9000)]

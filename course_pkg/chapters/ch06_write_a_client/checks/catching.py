@@ -24,7 +24,7 @@ class Slip:
 
 class no_name:
     TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
-"""  # Every operation on this object raises the error that a service name of a wrong type causes.
+"""  # Every operation on a Slip object raises an error, as with a service name that is not a string.
 
 DEPENDS = (
     "The result has to depend on the response of this call, not on earlier calls. Read the volume "
@@ -46,7 +46,7 @@ CAUGHT = "Return None if the call failed."
     goals={VOLUME: 1, CAUGHT: 2, "Do not catch exceptions that are caused by wrong arguments.": 1},
 )
 def catch_what_can_happen(context: CheckContext) -> None:
-    """Call two working servers, four servers that fail in different ways, and use wrong arguments."""
+    """Call the student's function with two working services, four failing services, and wrong arguments."""
     good, flat = (f"/{context.random.word()}" for _ in range(2))
     sides = context.random.numbers(3, 0.5, 9.0)
     (volume,) = volumes(context, 1)
@@ -148,7 +148,7 @@ def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDD
 
 
 def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -> None:
-    """Assert that a call of the service `name` returns None.
+    """Assert that the student's function returns None for the service `name`, whose call fails.
 
     The student's function may wait up to 10 s for the service.
     """

@@ -1,4 +1,4 @@
-"""06.6: a client program; a script can use its exit status as the result."""
+"""06.6: a client program that returns its result as an exit status."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ from course_pkg.checking.shared.script import require_shebang
 from course_pkg.waiting import at_this_load, wait_until
 
 FILE = "fits.py"
-RUNS = 9.0  # All runs start at the same time and may take this many s; the program waits at most 2 s.
+# All runs start at the same time and may take this many s; a program waits at most 2 s for the service.
+RUNS = 9.0
 LATE = 0.5  # The service starts this many s after the first snapshot that contains the node.
 POLL = 0.2  # The check tests every POLL s whether the runs have ended.
-IMPORTED = 77  # An import has this exit status if it ends without sys.exit or os._exit.
+IMPORTED = 77  # The import command has this exit status, unless the imported file ends the process itself.
 IMPORT = f"import sys; sys.argv = ['fits.py']; import fits; sys.exit({IMPORTED})"
 USAGE = "usage"
 ENDED_WITH_TEXT = (
@@ -32,14 +33,14 @@ START = f"""%%writefile {FILE}
 
 @dataclass(frozen=True)
 class Case:
-    """One run of the program."""
+    """The inputs and the expected result of one run of the student's program."""
 
-    title: str  # `title` is the name of the case in the titles of assertions.
+    title: str
     arguments: list[str]
-    # `script` chooses the responses of the service; None means that there is no service.
+    # `script` returns the service's response to a request; None means that there is no service.
     script: Script | None
     status: int
-    prints: str  # The program's output must contain this text, in lower case.
+    prints: str
     calls: int = 1
     hint: str = ""  # The report shows `hint` if the exit status is wrong.
     # If `remapped` is True, getGeometry is remapped to a name in another namespace. Otherwise, the program
@@ -70,7 +71,7 @@ USED = "If the arguments are wrong, print a usage line, and end with exit status
     },
 )
 def does_it_fit(context: CheckContext) -> None:
-    """Run the program for all cases at the same time, each in its own namespace."""
+    """Run the program for all cases at the same time; each run has its own namespace."""
     require_shebang(
         context,
         FILE,
@@ -189,11 +190,7 @@ def _cases(context: CheckContext) -> list[Case]:
 
 
 class Started:
-    """One run of the program, which has to call the service getGeometry in `namespace`.
-
-    In some cases, the program itself runs in this namespace. In the other cases, getGeometry is remapped to
-    this namespace.
-    """
+    """One run of the student's program, which must call the service getGeometry in `namespace`."""
 
     def __init__(self, context: CheckContext, folder: Folder, case: Case, namespace: str) -> None:
         self.case = case
@@ -208,7 +205,7 @@ class Started:
         self.run = folder.start("python", *argv, worded=" ".join(["python3", *argv]))
 
     def serve_late(self) -> None:
-        """Serve the late service some time after the node was first on the graph."""
+        """If the program's node has been on the graph for LATE s, serve the late service."""
         if not self.case.late or self.server:
             return
         if self._seen is None and any(node.name == self._node for node in self._context.look().nodes):

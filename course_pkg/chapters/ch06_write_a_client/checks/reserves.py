@@ -31,11 +31,11 @@ NEXT = (
     goals=[FIRST, NEXT, "Wait one second for a response. Return None if no service responds."],
 )
 def ask_the_next_one(context: CheckContext) -> None:
-    """Try a working server: alone, and then as the second server after each kind of failing server.
+    """Put a working service at the beginning of the list; later, put a failing service before it.
 
-    Finally, try only failing servers.
+    At the end, the list contains only failing services.
     """
-    # The name of a service must not show the kind of its server.
+    # The names are random, so that the name of a service does not reveal how its server behaves.
     names = {kind: f"/{context.random.word()}" for kind in KINDS}
     first, second, late, tardy = volumes(context, 4)
     primary = context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
@@ -181,7 +181,7 @@ def ask_the_next_one(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: Mapping[str, float]) -> None:
-    """Mix lists with and without a working service, so that a function with a fixed list of results fails."""
+    """Use lists with and without a working service in a random order; fixed results are then wrong."""
     used = [*context.random.shuffled(list(works))[:2], *[""] * context.random.integer(1, 3)]
     for working in context.random.shuffled(used):
         failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]
@@ -218,7 +218,7 @@ _ERRORS: Hints = [
 
 
 def _first_of(context: CheckContext, names: Mapping[str, str], *kinds: str, hints: Hints = ()) -> Result:
-    """Run the student's function with one service of each of these `kinds`, in this order."""
+    """Run the student's function with a list of services; `kinds` contains the kind of each service."""
     sides = context.random.numbers(3, 0.5, 9.0)
     services = [names[kind] for kind in kinds]
     return context.run("first_answer", services, *sides, within=3.0 + len(services), hints=hints or _ERRORS)

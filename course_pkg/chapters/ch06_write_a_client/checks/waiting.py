@@ -7,8 +7,7 @@ from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.waiting import at_this_load
 
-# This is the function's time limit in s, for existing and for missing services. It is long enough for a
-# connection on a busy machine.
+# The student's function gets this time limit in s, which is long enough for a connection on a busy machine.
 SAME = 1.5
 # The service starts STARTS s after the beginning of the call, and the call has a time limit of LATER s.
 STARTS, LATER = 1.3, 4.0
@@ -27,9 +26,9 @@ THERE = "Return True for a service that exists, and False for a service that doe
     goals=[THERE, "Return True for a service that starts in time."],
 )
 def is_anybody_there(context: CheckContext) -> None:
-    """Ask for a running server, and for two names without a running server.
+    """Call the student's function for a running server, and for two names without a running server.
 
-    Later, start a server while the client waits.
+    Later, start a server while the function waits.
     """
     here, nowhere, killed, later = (f"/{context.random.word()}" for _ in range(4))
     server = context.serve(here, GEOMETRY, lambda _: {})
@@ -67,7 +66,7 @@ def is_anybody_there(context: CheckContext) -> None:
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
-        ).returned(),  # Calls for a missing service have the same limit.
+        ).returned(),  # Calls for a missing service have the same time limit.
         hints=[
             (
                 False,
@@ -127,7 +126,7 @@ def is_anybody_there(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Try new names, so that a function with a fixed list of results fails."""
+    """Call the student's function with new names; a function with a fixed list of results fails."""
     fixed = (
         "With another service, the result was wrong. The result has to depend on the given "
         "service, not on earlier calls."
@@ -146,9 +145,9 @@ def _in_a_random_order(context: CheckContext) -> None:
 
 
 def _never_there(context: CheckContext, name: str, hint: str) -> None:
-    """Call the function for a missing service, with a time limit of 0.5 s.
+    """Call the student's function with the name of a missing service, and with a time limit of 0.5 s.
 
-    Within this limit, rospy looks for the service twice. A result after 1.4 s is too late.
+    Within 0.5 s, rospy looks for the service twice. A result after 1.4 s is too late.
     """
     too_long = (
         "The function waited longer than `seconds`. Call wait_for_service only once, and pass "

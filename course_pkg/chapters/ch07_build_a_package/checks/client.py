@@ -22,8 +22,8 @@ FILE = MY_GEOMETRY.path(CLIENT.file)
 SERVICE = "/getGeometry"
 USAGE = re.compile("^usage:", re.MULTILINE)
 WAITED = re.compile("waiting for service|unavailable")  # rospy's error messages for a missing service
-# A run may take this many s: rospy needs 0.5 s to start (5 s on a busy machine), and the client waits up to 5
-# s.
+# A run of the client may take this many s: rospy needs 0.5 s to start (5 s on a busy machine), and the client
+# waits up to 5 s.
 WITHIN = 16.0
 
 START = f"""%%writefile {FILE}
@@ -224,7 +224,7 @@ def _run(package: BuiltPackage, arguments: list[str]) -> Finished:
 
 
 def _printed(done: Finished, name: str) -> float | None:
-    """Return the number in the line `name`, such as "area: 6.24", or None without such a line."""
+    """Return the number in the output line that begins with `name`, such as "area: 6.24", or None."""
     found = re.search(rf"(?m)^\s*{name}:\s*(-?\d+\.\d\d)\s*$", done.out)
     return float(found[1]) if found else None
 

@@ -1,4 +1,4 @@
-"""07.2 and 07.8: a definition in the student's own package; its build and its MD5 sum are compared."""
+"""07.2 and 07.8: the student's service definitions; the checks build them and compare the MD5 sums."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ EXAMPLE_FILE = "srv/ServiceExample.srv"
     deadline=60.0,
 )
 def the_definition(context: CheckContext) -> None:
-    """Compare the fields, and build the package with this definition."""
+    """Compare the fields in the student's geometry.srv, and build the package with this file."""
     _examine(context, MY_GEOMETRY, GEOMETRY_FILE, "geometry", GEOMETRY)
 
 
@@ -45,7 +45,7 @@ def the_definition(context: CheckContext) -> None:
     deadline=60.0,
 )
 def the_second_definition(context: CheckContext) -> None:
-    """Compare the fields, and build the package with this definition."""
+    """Compare the fields in the student's ServiceExample.srv, and build the package with this file."""
     _examine(context, SERVICE_EXAMPLE_PACKAGE, EXAMPLE_FILE, "ServiceExample", SERVICE_EXAMPLE)
 
 

@@ -1,4 +1,4 @@
-"""07.6: the install rules. The check hides the folder src before it starts the installed files."""
+"""07.6: the install rules. The check moves the folder src away before it starts the installed server."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ INSTALLED = "Install server.py and client.py in the folder that rosrun searches.
     goals={INSTALLED: 3, "Install all files that the server needs to run.": 1},
 )
 def the_install_rules(context: CheckContext) -> None:
-    """Install a copy, hide the other folders, and start the installed server."""
+    """Install a copy of the package, move its other folders away, and start the installed server."""
     package = built(context, MY_GEOMETRY, examined=NAME)
     _installs(context, package)
     for script in SCRIPTS:
@@ -80,7 +80,7 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
         actual=", ".join(places) + (", a file that can only be read" if there else "") or "no such file",
         hints=_why_not_there(context.source(f"file:{FILE}"), script, places, there=there),
     )
-    # catkin_install_python may change the first line.
+    # catkin_install_python can change the first line, so compare only the other lines.
     both = f"<(tail -n +2 {MY_GEOMETRY.path(f'scripts/{script}')}) <(tail -n +2 install/{PLACE}/{script})"
     if package.folder.command("bash", "-c", f"cmp {both}", worded=f"cmp {script}").status != 0:
         context.fail(

@@ -11,7 +11,7 @@ from course_pkg.workspace.fault import dependencies, manifest_tags, without_comm
 
 NAME = "package.xml"
 FILE = MY_GEOMETRY.path(NAME)
-GENERATED = {  # Each tag has the text that catkin_create_pkg writes, and a hint.
+GENERATED = {  # For each tag, this dict contains the text that catkin_create_pkg generates, and a hint.
     "description": ("The my_geometry package", "Describe in one sentence what the package does."),
     "license": ("TODO", "Write the name of a licence, for example MIT or BSD."),
 }
@@ -55,7 +55,7 @@ COMPLETE = "Write a package.xml that catkin accepts. List all packages that your
     goals={COMPLETE: 3, "Write your own description, address and licence.": 1},
 )
 def the_manifest(context: CheckContext) -> None:
-    """Compare the dependencies, build the package, and read the texts that do not affect the build."""
+    """Compare the dependencies, build the package, and examine the description, address and licence."""
     text = context.source(f"file:{FILE}")
     for purpose, tag, packages in NEEDS:
         named = dependencies(text, purpose)

@@ -27,8 +27,8 @@ CLIENT = Program("scripts/on_off_client.py")
 SERVER_FILE = SERVICE_EXAMPLE_PACKAGE.path(SERVER.file)
 CLIENT_FILE = SERVICE_EXAMPLE_PACKAGE.path(CLIENT.file)
 WITHIN = 12.0  # A run of the client may take this many s.
-# The client is called this many times. With fewer calls, even a client without a mistake could by chance
-# always send the same number.
+# The client makes this many calls. With fewer calls, even a right client could by chance always send the same
+# number.
 CALLS = 24
 
 SERVER_START = f"""%%writefile {SERVER_FILE}

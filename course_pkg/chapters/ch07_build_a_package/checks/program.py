@@ -1,6 +1,6 @@
 """Assertions about the programs of chapter 07.
 
-Linux must be able to execute a program, rosrun must find it, and it must serve its service.
+Linux must be able to execute a program, rosrun must find the program, and the program must offer its service.
 """
 
 from __future__ import annotations
@@ -18,15 +18,16 @@ from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.errors import CheckError
 from course_pkg.workspace import explain
 
-# A program may take this many s until it serves; it takes 1 s on an idle machine, and 3 s on a busy machine.
+# A program must offer its service within this many s; it takes 1 s on an idle machine, and 3 s on a busy
+# machine.
 STARTING = 15.0
 IMPORTING = 15.0  # An import may take this many s; it needs 0.4 s of CPU time.
-MUCH = 6.0  # An import that needs more CPU time (s) than this is in an endless loop.
+MUCH = 6.0  # If an import needs more CPU time than this (in s), the script is in an endless loop.
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 LOGGERS = ("/get_loggers", "/set_logger_level")  # Every rospy node has these services.
 
-# This code imports the script as a module. If the script calls a function that only a running node should
-# call, the import ends with a message.
+# This code imports the script as a module. If the script calls a function such as rospy.init_node during the
+# import, the import ends with a message.
 IMPORTS = """\
 import importlib.util, pathlib, sys, rospy
 def began(*args, **kwargs):
@@ -40,7 +41,7 @@ sys.modules[spec.name] = module  # dataclasses looks up the module there
 spec.loader.exec_module(module)
 sys.exit(77)
 """
-IMPORTED = 77  # An import has this exit status if it ends without sys.exit or os._exit.
+IMPORTED = 77  # The import command has this exit status, unless the imported file ends the process itself.
 ENDINGS = (  # Each entry contains a pattern for the program's output, and a hint.
     (r"rospy\.init_node\(\) first", "A service needs a node. Call rospy.init_node before rospy.Service."),
     (
@@ -105,7 +106,7 @@ def is_executable(context: CheckContext, path: str) -> None:
 
 
 def can_be_imported(context: CheckContext, package: BuiltPackage, program: Program) -> None:
-    """Assert that an import of the script starts nothing, as with `if __name__ == "__main__"`."""
+    """Assert that the script can be imported, and that the import starts no node."""
     path = package.package.path(program.file)
     line = f". devel/setup.bash && exec python3 -c '{IMPORTS}' {path}"
     done = package.folder.command("bash", "-c", line, within=IMPORTING, worded=f"import {program.name}")
@@ -142,7 +143,7 @@ def _never_ends(done: Finished) -> bool:
 def serves(
     context: CheckContext, running: Running, package: BuiltPackage, program: Program, name: str, node: str
 ) -> None:
-    """Wait until the node `node` offers the service `name`; report why if it does not do so in time."""
+    """Wait until the node `node` serves `name`; if it does not do so in time, report the reason."""
     assertion = f"rosrun starts it, and it serves {program.service}"
     deadline = time.monotonic() + STARTING
     while (found := context.look().service(name)) is None:
@@ -208,9 +209,9 @@ def why_not(
 
 
 def own_line(program: Program, printed: str) -> str:
-    """Return a sentence that quotes the wrong line of the student's script.
+    """Return a sentence with the number of the wrong line in the student's script.
 
-    If the line is not known, return "".
+    If the number is not known, return "".
     """
     numbers = re.findall(rf'{re.escape(program.name)}", line (\d+)', printed)
     return f"The error occurred in line {numbers[-1]} of {program.name}." if numbers else ""

@@ -1,6 +1,6 @@
 """07.7: a README with commands.
 
-With these commands, another person can build the package, start the server, and call the service.
+With the commands in the README, another person can build the package, start the server, and call the service.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ CALL = re.compile(
     rf"(?:{NUMBER} +{NUMBER} +{NUMBER}|['\"]\{{?\s*{FIELD}(?:(?: *, *|\s+){FIELD}){{2}}\s*\}}?['\"])"
 )
 CLIENT = re.compile(rf"rosrun +my_geometry +client\.py(?: +{NUMBER}){{3}}")
-COMMANDS = (  # Each command has a pattern, a name, and a hint.
+COMMANDS = (  # Each entry contains the pattern, the name and the hint of a required command.
     (
         r"catkin_make\b",
         "catkin_make",

@@ -10,7 +10,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 IS_MESSAGE = """
 def is_message(function, *args):
     return hasattr(function(*args), "_slot_types")
-"""  # A check receives a message as a dict, so only code in the kernel sees the difference.
+"""  # A check receives a message as a dict, so only code in the kernel can distinguish a message from a dict.
 ERRORS = [
     (
         matches("'str' object has no attribute '_request_class'"),

@@ -15,7 +15,8 @@ from course_pkg.checking.shared.command_line import commands_of
 from course_pkg.ros.protocol.json_channel import Json
 
 PRINTS = (["echo"], ["printf"])
-WORDS = 4  # A line has this many words: rosservice, call, the name, and one word with all fields.
+# A right command line has this many words: rosservice, call, the name, and one word with all fields.
+WORDS = 4
 SPLIT = (
     "bash has split the fields at spaces, or has removed quotes. Use shlex.quote, which makes "
     "one word from any text."
@@ -94,7 +95,10 @@ NO_LINE: Hints = [
     deadline=38.0,
 )
 def line_for_a_terminal(context: CheckContext) -> None:
-    """Run the lines that the function returned in bash. Some values need quotes for bash or YAML."""
+    """In bash, run the command lines that the student's function returns.
+
+    Some values need quotes for bash or YAML.
+    """
     for example in example_calls(context):
         name = f"/{context.random.word()}"
         server = context.serve(name, example.kind, lambda _, answer=example.answer: answer)
@@ -117,7 +121,7 @@ def line_for_a_terminal(context: CheckContext) -> None:
 
 
 def _is_call(line: Json) -> bool:
-    """Return whether the line runs `rosservice call`; a pipe may supply the fields."""
+    """Return whether the line runs `rosservice call`; echo or printf can supply the fields through a pipe."""
     *before, last = commands_of(line) or [[]]
     return last[:2] == ["rosservice", "call"] and all(words[:1] in PRINTS for words in before)
 
@@ -166,7 +170,7 @@ def _lost(actual: Fields) -> bool:
 
 def _complaint(line: str, output: str) -> str:
     """Return the hint for a line that did not call the service."""
-    with suppress(ValueError):  # A quotation mark is not closed.
+    with suppress(ValueError):  # shlex.split raises ValueError if a quotation mark is not closed.
         if len(shlex.split(line)) == WORDS and matches("ParserError|ScannerError|Too many").search(output):
             return NO_YAML
     return hint_for(COMPLAINTS, f"{line}\n{output}")

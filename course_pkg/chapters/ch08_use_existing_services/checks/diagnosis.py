@@ -87,7 +87,7 @@ WHY = {
     deadline=20.0,
 )
 def find_the_cause(context: CheckContext) -> None:
-    """Call diagnose() with one service for each possible result; then call it in a random order."""
+    """Call diagnose() for a service of each possible result; then repeat this in a random order."""
     context.prepare(KINDS)
     kind, other = context.random.shuffled(list(TYPES))[:2]
     changed = compile_service(TYPES[kind], CHANGED).cls
@@ -113,10 +113,10 @@ def find_the_cause(context: CheckContext) -> None:
 
 
 def _services(context: CheckContext, kind: str, other: str, changed: ServiceClass) -> dict[str, str]:
-    """Prepare one service name for each result that diagnose() can return; return these names and results.
+    """Prepare services; return a dict that maps each service name to the right result of diagnose().
 
-    The first item is the service for the result "ok". The names are random, so that a name does not reveal
-    its result.
+    The first name has the result "ok"; the caller must start the server of this service. The names are
+    random, so that a name does not reveal its result.
     """
     works, missing, gone, typed, copied, renewed = (f"/{context.random.word()}" for _ in range(6))
     package = f"{context.random.word()}_pkg"

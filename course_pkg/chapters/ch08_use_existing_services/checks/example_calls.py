@@ -1,4 +1,4 @@
-"""Calls of several types, for clients that do not know the type in advance."""
+"""Example calls of several service types, for clients that do not know the types in advance."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from course_pkg.checking.plain_values import Fields, Value
 
 @dataclass(frozen=True)
 class ExampleCall:
-    """The fields of a request of one type, and the fields of the response to this request."""
+    """An example call: its service type, the fields of the request, and the fields of the response."""
 
     what: str  # `what` is the name of the call in the titles of assertions.
     kind: str
@@ -18,7 +18,7 @@ class ExampleCall:
     answer: Fields
 
     def given(self, received: Value) -> Value:
-        """Return the values in `received`, but only those of the fields that this call sends.
+        """Return a copy of the message `received` that contains only the fields that this call sends.
 
         In nested messages, fields that this call does not send are also omitted.
         """

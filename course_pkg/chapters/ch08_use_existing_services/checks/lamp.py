@@ -1,4 +1,4 @@
-"""08.2: a server that is also a client, and that translates between two types."""
+"""08.2: a server that handles each call with a call of another service, which has a different type."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ COMPARED = "Return success=False if the lamp refuses the request or has the wron
     goals=[OBEYED, COMPARED, "Return success=False if the lamp has no server."],
 )
 def translate(context: CheckContext) -> None:
-    """Call /lamp with a lamp that switches, a lamp that switches wrongly, a refusing lamp, and no lamp."""
+    """Call /lamp; the lamp's server obeys, returns the wrong state, refuses, or does not exist."""
     panel = context.service("/lamp", "std_srvs/SetBool", hints=NO_ERROR)
     require_served_by_notebook(context, "/lamp")
     for data in (*context.random.shuffled([True, False]), context.random.choice([True, False])):

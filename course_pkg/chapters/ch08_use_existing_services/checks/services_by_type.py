@@ -1,4 +1,4 @@
-"""08.1: all services on the graph that have one type."""
+"""08.1: find all services on the graph that have a given type."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ FOUND = "Return the names of all services of the given type. Do not call the ser
     goals=[FOUND, "Leave out services whose server has ended, and include services that started later."],
 )
 def find_by_type(context: CheckContext) -> None:
-    """Serve services of two types, and services of types whose names are similar.
+    """Serve services of the searched type, of another type, and of types with similar names.
 
     Later, serve another service, and register a service whose server is dead.
     """
@@ -99,15 +99,16 @@ def find_by_type(context: CheckContext) -> None:
 
 
 def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], ended: str = "") -> None:
-    """Assert that the function returns all services of type `kind`; `mine` contains the check's services.
+    """Assert that the student's function returns all services of the type `kind`.
 
-    `incomplete` is the hint for a missing service. The service `ended` no longer exists.
+    `mine` contains the names of the check's services. `incomplete` is the hint for a missing service. The
+    service `ended` no longer exists.
     """
     names = context.run("services_of", kind, hints=ERRORS).returned()
     _is_a_list_of_names(context, names)
     found: list[str] = of_kind(list, names, "the result")
     types = {service.name: service.type for service in context.look().services}
-    # Services of other nodes also belong to the right result.
+    # The right result also contains services of nodes that the check did not start.
     right = mine | {name for name, actual in types.items() if actual == kind}
     missing, extra = sorted(right.difference(found)), sorted(set(found) - right)
     context.require(
@@ -155,8 +156,8 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
 def _why_wrong(types: set[str | None], kind: str) -> str:
     """Return the hint for a list with wrong names.
 
-    `types` contains the type of the service for each of these names: None if there is no such service, and ""
-    if its server is dead.
+    For each wrong name, `types` contains the type of the service; the value is None if there is no such
+    service, and "" if the server is dead.
     """
     if None in types:
         return "Your list contains strings that are not names of services. Return only the names of services."

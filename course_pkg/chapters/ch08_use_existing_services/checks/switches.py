@@ -16,9 +16,9 @@ class Case:
 
     name: str  # `name` is the name of the case in the titles of assertions.
     there: bool  # True if the switch is already in the requested position.
-    obeys: bool  # `obeys` is True if the switch moves.
-    success: bool  # `success` is the value in the response.
-    expected: str  # `expected` is the value that `move` must return.
+    obeys: bool
+    success: bool
+    expected: str
     wrong_results: list[tuple[str, str]]  # Each tuple contains a wrong result and a hint.
 
 
@@ -108,14 +108,14 @@ CASES = (
 
 @dataclass
 class FakeSwitch:
-    """A switch that does what its case describes."""
+    """A switch whose behaviour is described by the Case object `case`."""
 
     case: Case
     is_open: bool
     message: str
 
     def handle_set(self, request: Message) -> Fields:
-        """Behave as the case describes: move or do not move, and return its response."""
+        """Move the switch if `case.obeys` is True; return the response that `case` describes."""
         self.is_open = bool(request.data) if self.case.obeys else self.is_open
         return {"success": self.case.success, "message": self.message}
 
@@ -132,11 +132,11 @@ class FakeSwitch:
     deadline=25.0,
 )
 def move_and_verify(context: CheckContext) -> None:
-    """Call move() with switches that behave differently; each switch has to open and to close."""
+    """Call move() for switches that behave differently; request both positions of each kind of switch."""
     for case in CASES:
         for to_open in context.random.shuffled([True, False]):
             _move(context, case, to_open)
-    for case in context.random.shuffled(CASES)[: context.random.integer(3, 5)]:  # The order is random.
+    for case in context.random.shuffled(CASES)[: context.random.integer(3, 5)]:
         _move(context, case, context.random.choice([True, False]))
 
 

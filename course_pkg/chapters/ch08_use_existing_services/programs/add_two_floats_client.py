@@ -1,8 +1,8 @@
 """The node `add_two_floats_client`: a client with a wrong type; `add_two_ints` refuses the connection.
 
-The client's definition has the same name, AddTwoInts, but its fields have the type float64 instead of int64.
-This happens in practice if a definition was changed, and only the client was built again. When a client
-connects, the server compares the MD5 sums.
+The types of the client and the server have the same name, AddTwoInts, but the client's fields are float64
+instead of int64. This happens in practice if a definition was changed, and only the client was built again.
+When a client connects, the server compares the MD5 sums of both types.
 """
 
 from __future__ import annotations

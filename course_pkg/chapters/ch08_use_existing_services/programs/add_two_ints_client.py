@@ -24,7 +24,7 @@ def main() -> None:
 
 
 def add(node: str, kind: type | ServiceType, read: Callable[[str], float], usage: str) -> int:
-    """Call `add_two_ints` as the node `node` with the two arguments; return the exit status.
+    """Call `add_two_ints` as the node `node` with the two command-line arguments; return the exit status.
 
     `kind` is the service type that the client uses. `read` converts an argument to a number, and raises
     ValueError for an invalid argument.

@@ -1,4 +1,4 @@
-"""09.5: a client that calls three services, and then repeats turtle1's velocities for a second turtle."""
+"""09.5: a client that calls three services, and then publishes turtle1's velocities for a second turtle."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def bring_a_second_turtle(context: CheckContext) -> None:
 
 @dataclass
 class Driver:
-    """The three services in a namespace of the check; they record all calls in order."""
+    """Servers of the three services that a program must call; the servers record all calls in order."""
 
     context: CheckContext
     world: World
@@ -73,7 +73,7 @@ class Driver:
     servers: dict[str, ScriptedServer] = field(default_factory=dict)
 
     def serve(self, *services: str, refusing: str = "") -> None:
-        """Begin to serve these services; the service `refusing` refuses each call."""
+        """Start servers for `services`; the server of the service `refusing` refuses each call."""
         for service in services:
             self.servers[service] = self.context.serve(
                 self.world.name(service),
@@ -99,7 +99,7 @@ class Driver:
 def follows(context: CheckContext, program: TurtleProgram) -> None:
     """Assert that a program meets the requirements of the exercise about spawn_turtle_plus.
 
-    Three runs of the program overlap, because one run takes 5 s. A fourth run takes place within these 5 s.
+    The runs of the program overlap, because one run takes 5 s.
     """
     copy = program.prepare(context, program)
     name = context.random.word()
@@ -125,7 +125,7 @@ def follows(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> None:
-    """Assert that the program calls all three services in order; two of the services start late."""
+    """Assert that the program calls all three services in order; the second and third service start late."""
 
     def called(count: int, within: float) -> bool:
         return wait_until(lambda: len(driver.calls) >= count or running.status is not None, within, 0.05)
@@ -183,11 +183,12 @@ def _why_not_called(calls: list[str], running: Running, *, ended: bool) -> str:
 def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
     """Assert that the new turtle gets turtle1's velocities.
 
-    The response contains a random name for the new turtle.
+    The response of /spawn contains a random name for the new turtle.
     """
     standing = _velocity(0.0, 0.0, 0.0)
     moving = [_velocity(*context.random.numbers(3, -2.0, 2.0)) for _ in range(COUNT - 2)]
-    velocities = [standing, *moving, moving[-1]]  # The last two velocities are equal.
+    # The last two velocities are equal; the program must publish both.
+    velocities = [standing, *moving, moving[-1]]
     subscription = context.subscribe(driver.world.name(f"{driver.name}/cmd_vel"), TWIST)
     wait_until(lambda: running.status is not None, ENDING, 0.1)
     ended: tuple[Condition, str] = ((lambda _: running.status is not None), ENDED)

@@ -1,6 +1,6 @@
 """09.4: a driver with services for the direction, the rate and the speed.
 
-Another service stops the turtle.
+A fourth service stops and starts the turtle.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from course_pkg.checking.peers.service_calls import Service
 PROGRAM = script("improved_pubvel_toggle")
 CHANGE_SPEED = "course_pkg/ChangeSpeed"
 SERVICES = ("toggle_forward", "change_rate", "change_speed", "start_stop")
-RATE = 20.0  # The check sets this rate in messages per second, which makes the check faster.
+RATE = 20.0  # The check sets this rate in messages per second; at a higher rate, the check takes less time.
 STANDING = (0.0, 0.0)
 HUGE = 1e12  # This speed in m/s is allowed, because every finite number is allowed.
 ANY_SPEED = (
@@ -50,7 +50,7 @@ IMPROVED_GOALS = {SETS_ITS_RATE: 2, SETS_ITS_SPEED: 3, "Stop and start the turtl
 def change_speed_and_stop(context: CheckContext) -> None:
     """Set speeds, stop and start the turtle, and compare the published velocities.
 
-    The check does this while the turtle moves straight ahead, and while it turns.
+    Stop the turtle while it moves straight ahead, and while it turns.
     """
     is_improved(context, PROGRAM)
 
@@ -210,7 +210,7 @@ def _starts_and_stops(
         )
         _says(context, switch, moving=False, already=True)
         speed = context.random.number(2.0, 9.0)
-        before = change_speed(speed=HUGE).before  # The turtle is stopped, so this speed moves nothing.
+        before = change_speed(speed=HUGE).before  # The turtle is stopped, so it does not move at this speed.
         change_speed(speed=speed)
         _says(context, switch, moving=True, already=False)
         stream.becomes(

@@ -21,13 +21,14 @@ from course_pkg.ros import Snapshot
 DRIVER, SECOND = "improved_pubvel_toggle", "spawn_turtle_plus"
 ALWAYS = {"/turtlesim", f"/{DRIVER}"}
 READY = 20.0  # On a busy machine, a launch file must start its nodes within this time in s.
-# This script replaces the student's program from an earlier exercise; it starts the course's program.
+# This script replaces a program that the student wrote in an earlier exercise, and starts the course's
+# program.
 STAND_IN = '#!/bin/bash\nexec rosrun course_pkg {name} "$@"\n'
 
 
 @dataclass(frozen=True)
 class LaunchFile:
-    """A launch file of a package, and the two programs of this package that it starts."""
+    """A launch file of a package, and the two programs of this package that the launch file starts."""
 
     driver: TurtleProgram
     second: TurtleProgram
@@ -67,7 +68,7 @@ START = f"""%%writefile {FILE.path}
     start=START,
 )
 def two_turtles_or_one(context: CheckContext) -> None:
-    """Compare the list of nodes in the launch file; then start these nodes with a separate master."""
+    """Examine the list of nodes in the launch file; then start these nodes with a separate master."""
     launches(context, FILE)
 
 
@@ -162,7 +163,7 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
 
 
 def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
-    """Assert that roslaunch finds each program; the check does this before it starts nodes."""
+    """Before any node is started, assert that roslaunch finds each program."""
     names = ("turtlesim", DRIVER, SECOND)
     each = (
         f"for n in {' '.join(names)}; do roslaunch --args /$n {file.path} addturtle:=true 2>&1"

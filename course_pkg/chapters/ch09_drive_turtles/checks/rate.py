@@ -115,8 +115,7 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
 def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
     """Set allowed and forbidden rates, and measure some of the allowed rates; return the last allowed rate.
 
-    One rate is below 1 Hz, and its period is not close to a whole number of seconds. The period of another
-    rate is not close to a whole number of hundredths of a second. The number of rates is random.
+    The periods of the measured rates are not whole numbers of seconds or of hundredths of a second.
     """
     fast, slow = context.random.number(34.5, 38.5), context.random.number(0.6, 0.7)
     others = context.random.numbers(context.random.integer(1, 4), 5.0, 90.0)
@@ -188,10 +187,7 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
 
 
 def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
-    """Assert that the handler refuses a request; an unexpected exception does not count.
-
-    With rospy, the handler refuses a request with a ServiceException.
-    """
+    """Assert that the handler refuses a request; an unexpected exception is not a refusal."""
     (number,) = fields.values()
     why = (
         "every comparison with nan is False, so test for nan separately"

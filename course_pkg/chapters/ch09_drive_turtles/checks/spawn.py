@@ -24,11 +24,11 @@ SPAWN = "turtlesim/Spawn"
 TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
 LIMIT = 5.0  # LIMIT is the time in s for which the student's program waits for a service.
 NO_WAIT = "The call fails if the service has not started yet. First wait for the service, for at most 5 s."
-# If a program ends within this time in s, its hint says that it does not wait for the service.
+# If a program ends within this time in s, the hint says that the program does not wait for the service.
 NO_WAIT_ENDS = 1.0
 WITHOUT_A_WAIT = 0.5  # A program that does not wait ends within this time in s.
 LATE = 2.5  # LATE is the additional time in s that the program may need to start and to end.
-EARLY = 3.0  # If a program ends within this time in s, it does not wait for 5 s.
+EARLY = 3.0  # If a program ends within this time in s, it has not waited for 5 s.
 REFUSED = "a second MyTurtle is refused, and the exit status is 1"
 GIVES_UP = "without /spawn, the program gives up after 5 s with the exit status 1"
 
@@ -97,7 +97,7 @@ def _served_late(context: CheckContext, world: World, running: Running) -> tuple
 
 
 def _prints_the_name(context: CheckContext, world: World) -> None:
-    """Respond with a name that differs from the requested name."""
+    """Respond with another name than the requested name; assert that the program prints this name."""
     given = context.random.word()
     server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": given})
     with world.run() as running:

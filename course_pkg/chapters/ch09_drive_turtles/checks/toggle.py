@@ -10,7 +10,7 @@ from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.service_calls import Service
 
 PROGRAM = script("pubvel_toggle")
-RATE = 2.0  # The rate is in messages per second.
+RATE = 2.0  # The program must publish this many messages per second.
 STRAIGHT, TURNING = (1.0, 0.0), (0.0, 1.0)  # The speed is in m/s, and the angular velocity is in rad/s.
 ONE_CALL = "after a call, the turtle turns at 1.0 rad/s"
 NEXT_CALL = "after the next call, the turtle goes straight ahead again"
@@ -129,7 +129,7 @@ def _counts_each_call(toggle: Service, stream: Stream) -> None:
 def toggles_the_stream(
     toggle: Service, stream: Stream, times: int = 1, straight: tuple[float, float] = STRAIGHT
 ) -> None:
-    """Toggle twice: first to turning, then back to straight ahead; do this `times` times."""
+    """Toggle the direction to turning, and back to straight ahead; repeat this `times` times."""
     for _ in range(times):
         toggle()
         stream.becomes(TURNING, ONE_CALL, TOGGLED)

@@ -1,4 +1,4 @@
-"""A namespace of the check, with the student's program and the course's simulator."""
+"""A namespace in which a check runs the student's program and the simulator."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from course_pkg.workspace import explain
 
 # A node must be on the graph within this many s; it takes 1 s on an idle machine.
 STARTING = 30.0
-SETTLING = 4.0  # SETTLING is the time limit in s for the node to serve its services after it is on the graph.
+SETTLING = 4.0  # After the node is on the graph, it must serve its services within this many s.
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 SIMULATOR = "simulator"
 SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")
@@ -50,16 +50,16 @@ class World:
         self._arguments = f"__ns:={self._space} {remapped}"
 
     def name(self, relative: str) -> str:
-        """Return the full name of a topic or service in this namespace, such as "turtle1/pose"."""
+        """Return the full name for the relative name `relative`, such as "turtle1/pose"."""
         return f"{self._space}/{relative}"
 
     def run(self, arguments: str = "") -> Running:
-        """Start the student's program with arguments such as "_level:=5"; use it in a `with` block."""
+        """Start the student's program with arguments such as "_level:=5"; a `with` block ends the program."""
         line = f"{self._program.line} {self._arguments} {arguments}"
         return self._copy.start(line, worded=self._program.line)
 
     def simulator(self) -> Running:
-        """Start the simulator; use it in a `with` block."""
+        """Start the simulator; a `with` block ends the simulator."""
         line = f"rosrun turtlesim turtlesim_node __ns:={self._space} __name:={SIMULATOR}"
         return self._copy.start(line, worded="rosrun turtlesim turtlesim_node")
 
@@ -78,7 +78,7 @@ class World:
     def begins(self, running: Running) -> float:
         """Wait until the student's node is on the graph or has ended.
 
-        Return the time (s, time.monotonic()).
+        Return the time at the end of this wait (s, time.monotonic()).
         """
         wait_until(
             lambda: bool(self._own_services(loggers=True)) or running.status is not None, STARTING, POLL
@@ -93,7 +93,7 @@ class World:
     def serves(self, running: Running, *names: str) -> None:
         """Wait until the student's program serves all services in `names`.
 
-        If a service is missing, report what happened.
+        If a service does not appear in time, report the reason.
         """
         assertion = f"{self._program.line} starts a node that offers {_listed(names)}"
         began, seen = time.monotonic(), 0.0

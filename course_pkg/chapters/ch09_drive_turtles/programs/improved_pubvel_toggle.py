@@ -1,6 +1,6 @@
 """The node `improved_pubvel_toggle`: `pubvel_toggle_plus` with two more services.
 
-One service sets the speed, and the other service stops the turtle.
+The service `change_speed` sets the speed, and the service `start_stop` stops and starts the turtle.
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ SPEED = 2.0  # m/s
 
 
 def main() -> None:
-    """Spawn MyTurtle, toggle the pen of turtle1, set its speed, and copy its velocities to MyTurtle."""
+    """Spawn MyTurtle, toggle turtle1's direction, set its speed, and send its velocities to MyTurtle."""
     rospy.init_node("spawn_turtle_plus")
     prepare_node()
     spawn_or_exit()

@@ -111,7 +111,7 @@ ERRORS = [
 def wait_for_another_call(context: CheckContext) -> None:
     """Take an item from a full and from an empty basket; put an item into the basket while a client waits.
 
-    At the end, let many clients call both services at the same time.
+    At the end, let several clients wait for items at the same time.
     """
     *names, another = [f"/{context.random.word()}" for _ in range(3)]
     context.prepare(KERNEL_CODE)

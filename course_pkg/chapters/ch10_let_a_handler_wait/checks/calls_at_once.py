@@ -18,14 +18,15 @@ from course_pkg.waiting import wait_until
 TRIGGER = "std_srvs/Trigger"
 TOGETHER = 1.0  # The server waits at most this many s until the other calls have arrived.
 LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
-# The function must return within this many s after the last response. A function that sleeps for a fixed time
-# may take longer than a function that joins its threads.
+# The student's function must return within this many s after the last response. If a function sleeps for a
+# fixed time instead of joining its threads, it can take longer.
 PROMPT = 0.3
-# The calls of the first round take this many s. If the function returns too late, a third round has longer
-# calls.
+# In the first run, each call takes this many s. If the student's function returns too late, the check adds a
+# run with longer calls.
 LONGER = 1.0
 
-# For each call that uses a persistent proxy, this code sends a report on the thread of the call.
+# This code reports each call of a persistent proxy to the check. The thread that makes the call also sends
+# the report.
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -62,7 +63,7 @@ SHARED = (
 
 
 class Proxies:
-    """Records the threads that use each persistent proxy."""
+    """For each persistent proxy, records the threads that use this proxy."""
 
     def __init__(self) -> None:
         self.calls = 0
@@ -81,7 +82,7 @@ class Proxies:
 
 
 class Gate:
-    """A service that waits at most TOGETHER s for `count` calls, and responds `hold` s later."""
+    """A server that waits at most TOGETHER s for `count` calls, and responds `hold` s later."""
 
     def __init__(self, count: int, words: list[str], hold: float = 0.0) -> None:
         self.most = 0  # `most` is the maximum number of clients that waited at the same time.
@@ -150,9 +151,9 @@ ERRORS = [
     deadline=30.0,
 )
 def calls_at_once(context: CheckContext) -> None:
-    """Run the function with two numbers of clients; the server responds only after all of them have called.
+    """Run the student's function with few and with many clients; the server waits for all of their calls.
 
-    The calls of the first round take longer. If a function uses join() with a short timeout, it therefore
+    The calls of the first run take longer. Therefore, a function that uses join() with a short timeout
     returns too early.
     """
     context.prepare(KERNEL_CODE)
@@ -167,7 +168,7 @@ def calls_at_once(context: CheckContext) -> None:
 
 
 def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
-    """Run the function with `count` calls that take `hold` s each.
+    """Let the student's function make `count` calls that take `hold` s each.
 
     Return the time in s from the last response to the end of the function.
     """
@@ -236,7 +237,7 @@ def _calls_itself(context: CheckContext, server: ScriptedServer) -> None:
 
 
 def _shares_no_proxy(context: CheckContext, proxies: Proxies, server: ScriptedServer) -> None:
-    """Assert that all persistent connections come from calls that `proxies` has recorded."""
+    """Assert that no two threads use the same persistent proxy."""
     persistent = [header for header in server.received.headers if header.get("persistent") in ("1", "true")]
     context.require(
         "all calls wait for their responses at the same time",

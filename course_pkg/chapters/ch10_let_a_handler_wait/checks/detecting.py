@@ -16,13 +16,13 @@ DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
 SLACK = 1.5  # On a busy machine, a call may take this many s longer.
 # This value of `patience` (s) is for calls without a customer. A handler that waits twice as long exceeds the
-# limit.
+# time limit of the call.
 LONG = 2.0
 LATER = 0.6  # A customer comes after this many s.
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
 CHANGE = 2.2  # After this many s, the customers at the counter change again.
-# A handler that waits for notifications makes few calls of watch.next(). If a handler does not wait for
-# notifications, and makes fewer calls of watch.next() than this in LONG s, its pauses are too long.
+# If a handler polls and does not wait for notifications, it must call watch.next() at least this many times
+# in LONG s.
 SELDOM = 8
 LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
 
@@ -109,7 +109,7 @@ FOUND = (
     goals={FOUND: 2, "Respond to several clients at the same time.": 1},
 )
 def wait_for_a_customer(context: CheckContext) -> None:
-    """Call without a customer, with a customer who is there, and with a customer who comes later.
+    """Call the service without a customer, with a customer who is there, and before a customer comes.
 
     At the end, make several calls at the same time.
     """
@@ -133,7 +133,7 @@ def wait_for_a_customer(context: CheckContext) -> None:
 
 
 class _Shop:
-    """Publishes the customers at the counter repeatedly, like the camera."""
+    """Replaces the camera: repeatedly publishes the numbers of the customers at the counter."""
 
     def __init__(self, context: CheckContext, counter: str) -> None:
         self._context, self._counter = context, counter
@@ -142,17 +142,17 @@ class _Shop:
         self._await("told", True)
 
     def there(self, *numbers: int) -> None:
-        """Publish the numbers of the customers who are at the counter."""
+        """From now on, publish `numbers`, the numbers of the customers at the counter."""
         if self._saying:
             self._saying.stop()
         self._saying = self._context.publish(self._counter, COUNTER, [{"data": numbers}], every=0.05)
 
     def later(self, seconds: float, *numbers: int) -> None:
-        """After `seconds` s, publish the numbers of the customers who are at the counter."""
+        """After `seconds` s, begin to publish `numbers`, the numbers of the customers at the counter."""
         Timer(seconds, self.there, numbers).start()
 
     def await_sight(self, count: int) -> None:
-        """Wait until the student's process has received the number of customers at the counter."""
+        """Wait until the kernel has received a message with `count` customers."""
         self._await("count", count)
 
     def _await(self, name: str, value: int) -> None:
@@ -296,7 +296,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
     coming = context.random.integer(1000, 9000)
     shop.there()
     shop.await_sight(0)
-    _no(context, detect(after=0, patience=0.0))  # At this time, no customer is left from the earlier calls.
+    _no(context, detect(after=0, patience=0.0))  # Assert that no customer is left from the earlier calls.
     shop.later(LATER, coming)
     shop.later(CHANGE, coming - 1, coming)
     patience = LATER + SLACK + 1.0

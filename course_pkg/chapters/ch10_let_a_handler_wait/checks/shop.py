@@ -63,7 +63,7 @@ NO_TILL = (
 
 
 class Till:
-    """A till that charges amounts; during the first charge, it calls the shop."""
+    """A till that charges amounts; while the till handles its first call, it calls a service of the shop."""
 
     def __init__(self, context: CheckContext, left: str, shelf: CheckedShelf) -> None:
         # `acts` contains the results of the next calls; None means that the till charges the amount.
@@ -138,9 +138,10 @@ PUT_BACK = "Put the thing back if the call of the till's service fails."
     goals=[SOLD, PUT_BACK, "Sell to 50 clients at the same time."],
 )
 def no_lock_across_a_call(context: CheckContext) -> None:
-    """Buy from the student's shop, with different tills.
+    """Buy from the student's shop while the till behaves in different ways.
 
-    The first till calls /left, and other tills fail. At the end, 50 threads buy at the same time.
+    While the till handles its first call, it calls /left; later, it refuses or fails. At the end, 50 threads
+    buy at the same time.
     """
     buy, left, charge = (f"/{context.random.word()}" for _ in range(3))
     cents = context.random.integer(100, 900)
@@ -185,7 +186,7 @@ def _opened(
 
 
 def _has_no_till(context: CheckContext, cents: int) -> None:
-    """Buy in a shop without a running till, so that the call to the till fails at once."""
+    """Buy in a shop without a running till, so that the shop's call to the till fails immediately."""
     buy, left, charge = (f"/{context.random.word()}" for _ in range(3))
     count = context.random.integer(2, 9)
     services = {buy: "handle_buy", left: "handle_left"}

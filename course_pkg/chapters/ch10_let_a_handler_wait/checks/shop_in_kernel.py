@@ -59,10 +59,10 @@ checked_shop = CheckedShop()
 
 
 class CheckedShelf:
-    """A shelf with `count` things. The kernel has a proxy for the shelf.
+    """A shelf with `count` things. The student's code in the kernel uses the shelf through a proxy object.
 
     Each read and each write waits for a short time, and ends early if another thread reads. Therefore, two
-    threads without a lock read the same number. With a lock, no other thread can read during this time.
+    threads without a lock read the same number.
 
     With many threads, some reads are late: they wait for a write of another thread, and then return the new
     number. A thread that reads without the lock, for example after its own sale, gets this new number.

@@ -16,7 +16,7 @@ THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES 
 RUN = 14.0  # This time limit in s for all threads is enough for three consecutive deadlocks and all moves.
 
 MEETING = 0.01  # A thread that holds a lock waits at most this many s for another thread.
-# The thread that acquires the first lock waits at most this many s for the other threads.
+# After the first call of acquire(), the thread waits at most this many s for the other threads.
 FIRST_MEETING = 0.3
 
 # This code calls the student's function once, or in several threads; `pair` is a proxy for a CheckedPair.
@@ -53,10 +53,10 @@ class Deadlock(Exception):
 
 
 class CheckedLock:
-    """A lock whose `acquire` first waits for a short time; then another thread can acquire the second lock.
+    """A lock; after acquire(), the thread waits briefly, so that another thread can acquire the second lock.
 
-    Two threads that acquire the two locks in opposite order therefore always block each other. A thread that
-    waits too long gets an error, so that all threads end.
+    Two threads that acquire the two locks in opposite order always block each other. A thread that waits too
+    long gets an error, so that all threads end.
     """
 
     def __init__(self, pair: CheckedPair, limit: float) -> None:
@@ -103,7 +103,7 @@ class CheckedLock:
 
 
 class CheckedShelf:
-    """One of the two shelves."""
+    """One of the two shelves in a CheckedPair."""
 
     def __init__(self, pair: CheckedPair, number: int, count: int, limit: float) -> None:
         self.things: Value = count
@@ -137,7 +137,7 @@ class CheckedShelf:
 
 
 class CheckedPair:
-    """Two shelves with locks.
+    """Two shelves, each with a lock.
 
     The object records how many locks a thread held when the thread read or changed a count.
     """
@@ -193,7 +193,7 @@ class CheckedPair:
         return sum(shelf.lock.owner == threading.get_ident() for shelf in self._shelves)
 
     def meet(self) -> None:
-        """Wait for a short time, or until another thread has also acquired a lock."""
+        """Wait until another thread has also acquired a lock, but only for a short time."""
         with self._turn:
             limit, self._meeting = self._meeting, MEETING
             self._turn.notify_all()
@@ -252,7 +252,7 @@ MOVED = "Move a thing in one thread, but do not move a thing from an empty shelf
     goals=[MOVED, "Move things in both directions at the same time, without a deadlock."],
 )
 def move_without_deadlock(context: CheckContext) -> None:
-    """Move things in one thread, even from an empty shelf.
+    """Move things in one thread, and try to move a thing from an empty shelf.
 
     At the end, let several threads move things in both directions at the same time.
     """

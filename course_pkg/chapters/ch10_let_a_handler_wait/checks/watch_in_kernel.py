@@ -1,8 +1,8 @@
-"""Code for the kernel. A Watch records the calls of a handler, and a shop offers the handler as a service."""
+"""Code for the kernel: a Watch that records a handler's calls, and a Shop that serves the handler."""
 
 from __future__ import annotations
 
-# This code makes a shop with random names, which serves the student's handler with a new Watch.
+# This code defines the class Shop, which serves the student's handler together with a new Watch.
 A_SHOP = """
 import collections
 import functools

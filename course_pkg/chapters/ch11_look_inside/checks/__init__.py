@@ -1,4 +1,4 @@
-"""The checks of chapter 11: TCPROS bytes, sessions, and clients that keep connections open."""
+"""The checks of chapter 11: the bytes of TCPROS, sessions, and clients that keep connections open."""
 
 from course_pkg.chapters.ch11_look_inside.checks.clients import client_with_a_known_address, persistent_client
 from course_pkg.chapters.ch11_look_inside.checks.connection_header import exact_read, packed_header

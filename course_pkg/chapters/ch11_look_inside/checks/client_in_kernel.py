@@ -49,7 +49,7 @@ def kept_proxies():
 
 
 class Client:
-    """An object of the student's class `kind` in the kernel, for the service `name`."""
+    """An object of the student's class `kind` in the kernel; the object calls the service `name`."""
 
     def __init__(self, context: CheckContext, kind: str, name: str) -> None:
         self._context, self._kind = context, kind
@@ -60,7 +60,7 @@ class Client:
         context.require("a client object can be created", holds=made.returned() is None)
 
     def measure(self, hints: Hints) -> Result:
-        """Call the method measure with random sides; every second call uses the sides of the call before.
+        """Call the method measure with random sides; every second call repeats the previous sides.
 
         If the client returns a complete response, the result is a dict with the volume.
         """
@@ -95,7 +95,7 @@ class ResettingPort:
         self._listener.close()
 
     def _reset(self) -> None:
-        with suppress(OSError):  # The end of the block closes the listening socket.
+        with suppress(OSError):  # When the listening socket is closed, accept() raises OSError.
             while True:
                 connection, _ = self._listener.accept()
                 self.connections += 1

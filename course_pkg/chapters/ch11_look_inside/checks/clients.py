@@ -105,9 +105,9 @@ def persistent_client(context: CheckContext) -> None:
 
 
 def _next_act(acts: list[Act]) -> Act:
-    """Return the server's next action. A refusal is repeated until the check removes it from the list.
+    """Return the server's next action. A refusal stays in the list `acts` until the check removes it.
 
-    If the list is empty, the server closes the connection.
+    If `acts` is empty, the server closes the connection.
     """
     if not acts:
         return HangUp()
@@ -314,7 +314,7 @@ def _finds_it_after_a_reset(
 ) -> None:
     """Start another program at the server's port, and start the server at another address.
 
-    At the end, stop the server. Its registered address then belongs to a program that resets each connection.
+    At the end, stop the server; at the server's registered address, a program then resets each connection.
     """
     former.leave()
     assertion = "a server that moved is found again"
@@ -337,9 +337,9 @@ def _finds_it_after_a_reset(
 
 
 def _keeps_the_address(context: CheckContext, name: str, client: Client, numbers: list[float]) -> None:
-    """Register another server with the same name.
+    """Register a second server for the same service.
 
-    Only a client that looks up the name again calls this server.
+    Only a client that looks up the address again calls the second server.
     """
     wrong = context.random.numbers(2, 100.0, 900.0)
     other = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), wrong, strict=True)))

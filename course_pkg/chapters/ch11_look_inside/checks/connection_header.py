@@ -94,9 +94,10 @@ RECEIVED = "Return exactly `count` bytes, even if the bytes arrive in pieces."
     needs=["pack_header"],
 )
 def packed_header(context: CheckContext) -> None:
-    """Compare the returned bytes with the correct headers for several dicts of fields.
+    """For several dicts of fields, compare the bytes from the student's function with the right headers.
 
-    The fields are random fields, a letter that needs two bytes, no fields, and a field longer than 255 bytes.
+    The dicts contain random fields, a letter that needs two bytes, no fields, or a field longer than 255
+    bytes.
     """
     word = context.random.word
     context.prepare(TYPE_OF_HEADER)
@@ -140,7 +141,7 @@ def _packed(
     lengths: bool = True,
     code: str = "utf-8",
 ) -> bytes:
-    """Return the bytes of a correct header; with other arguments, the header contains a mistake."""
+    """Return the bytes of a header; with the default arguments, the header is right."""
     texts = [f"{name}{joint}{value}" for name, value in fields.items()]
     coded = [(count(text), text.encode(code)) for text in texts]
     body = b"".join((struct.pack(order, length) if lengths else b"") + data for length, data in coded)
@@ -245,7 +246,7 @@ NOT_RAISED: Hints = [
     goals={RECEIVED: 3, "Raise ConnectionError if the connection ends before `count` bytes have arrived.": 1},
 )
 def exact_read(context: CheckContext) -> None:
-    """Send the bytes in one piece, in several pieces, and with additional bytes.
+    """Send bytes to the student's function: in one piece, in several pieces, and with additional bytes.
 
     At the end, close the connection before all bytes are sent.
     """
@@ -284,12 +285,12 @@ CLOSED = "The function closed the socket. Leave the socket open, because the cal
 
 
 class OtherEnd:
-    """The check's end of the connection to the student's socket.
+    """The server to which the student's socket connects.
 
     The object sends `pieces`, and keeps the connection open until the `with` block ends.
 
-    Each piece is sent after the client has read the previous piece. Therefore, a client that reads only once
-    gets only one piece. There is a pause of `pause` s before each piece.
+    The server sends each piece after the client has read the previous piece. Therefore, a client that reads
+    only once gets only one piece. There is a pause of `pause` s before each piece.
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False, pause: float = 0.0) -> None:
@@ -323,7 +324,7 @@ class OtherEnd:
         return False
 
     def _send(self) -> None:
-        with suppress(OSError):  # The kernel may have closed its socket, or may never connect.
+        with suppress(OSError):  # If the kernel closes its socket or never connects, an OSError is raised.
             sock, _ = self._listener.accept()
             with sock:
                 self._sock = sock
@@ -336,7 +337,7 @@ class OtherEnd:
 
 
 def _unread(sock: socket.socket) -> int:
-    """Return the number of bytes that were sent but not yet read."""
+    """Return the number of bytes that were sent to the client, but that the client has not yet read."""
     (count,) = struct.unpack("i", fcntl.ioctl(sock, termios.TIOCOUTQ, bytes(4)))
     return int(count)
 

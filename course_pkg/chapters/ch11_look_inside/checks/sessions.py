@@ -48,14 +48,14 @@ TOTALS = "Store a separate total for each session."
     goals={TOTALS: 2, "Refuse a call without a session.": 1},
 )
 def totals_of_sessions(context: CheckContext) -> None:
-    """Call in two sessions, call from another node in one of these sessions, and call without a session."""
+    """Call the service in two sessions, from another node in one of these sessions, and without a session."""
     kind = context.service(NAME, KIND).kind
     require_kernel(context, [service.node for service in context.look().services if service.name == NAME])
     first, second = context.random.word(), context.random.word()
     others = [first.upper(), *(context.random.word() for _ in range(context.random.integer(4, 9)))]
     turns = [first, second, first, first, second, second, *others, first]
-    # The amounts are larger than the number of calls; a program that returns the number of calls as the total
-    # therefore fails.
+    # Each amount is larger than the number of calls, so a program that returns the number of calls as the
+    # total fails.
     amounts = context.random.integers(len(turns), 20, 900)
     amounts[3] = -amounts[3]
     totals = dict.fromkeys(turns, 0)
@@ -97,7 +97,7 @@ def totals_of_sessions(context: CheckContext) -> None:
 
 
 def _shares_no_total(context: CheckContext, kind: ServiceClass, session: str) -> None:
-    """Create a second object of the class, and call it in a session that the first object has used."""
+    """Call a second object of the student's class in a session that the first object has used."""
     name, amount = f"/{context.random.word()}", context.random.integer(20, 900)
     context.prepare(ANOTHER)
     opened = context.run("another_sessions.open", Its("Sessions"), name, worded="Sessions()")

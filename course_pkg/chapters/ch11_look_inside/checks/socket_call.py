@@ -117,7 +117,7 @@ ANSWERED = "Return the response, even if its bytes arrive one after the other."
     goals={ANSWERED: 3, "Raise ServiceException if the server refuses the call.": 1},
 )
 def call_over_a_socket(context: CheckContext) -> None:
-    """Call a server that responds at once, responds byte by byte, or refuses the connection or a call."""
+    """Call a server that responds immediately or byte by byte, or that refuses the connection or a call."""
     context.require(
         "the function uses only a socket",
         holds=not ROS_CLIENTS & _names(context.source("ask")),
@@ -141,11 +141,11 @@ def call_over_a_socket(context: CheckContext) -> None:
 def _names(source: str) -> set[str]:
     """Return the names that the code of a function uses; comments and docstrings do not count.
 
-    The name of an attribute is also returned with a dot before it.
+    For an attribute, the result also contains the name with a dot before it, such as ".call".
     """
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
-    # If the function is a lambda, for example, the source may be a part of a line and not valid Python.
+    # If the function is a lambda, its source can be a part of a line, which is not valid Python.
     except SyntaxError:
         return set()
     attributes = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
@@ -307,7 +307,7 @@ def _sends_the_header(context: CheckContext, conversation: Conversation, name: s
 
 
 def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: bool) -> None:
-    """Let the server refuse with an error message that contains `reason`."""
+    """Let the server refuse the call; assert that the student's function raises an error with `reason`."""
     name, kind = f"/{context.random.word()}", context.service_class(GEOMETRY)
     with TcprosServer(kind, (0.0, 0.0), refusal=message, in_handshake=in_handshake) as server:
         result = context.run("ask", server.uri, name, *context.random.numbers(3, 0.5, 9.0), within=3.0)

@@ -23,7 +23,8 @@ TIMEOUT = 8.0  # TIMEOUT is the time limit in s for the next bytes of a client o
 EARLY = 0.1  # The server waits this many s to see whether the client sends its request too early.
 # After the response, the client must close the connection within this many s, even on a busy machine.
 LINGER = 3.0
-UNREAD = 1.0  # A slow response waits at most this many s in total for the client to read the bytes.
+# During a slow response, the server waits at most this many s in total until the client has read the bytes.
+UNREAD = 1.0
 REQUEST = 12  # Three float32 values have this many bytes.
 
 
@@ -45,10 +46,10 @@ class ProtocolMistake(Exception):
 class TcprosServer:
     """Responds to geometry calls with the area and the volume in `numbers`.
 
-    If `refusal` is not empty, the server sends this error message instead of a response. With `in_handshake`,
-    the server already sends it in the connection header.
+    If `refusal` is not empty, the server sends this error message instead of a response. If `in_handshake` is
+    True, the server sends the error message already in the connection header.
 
-    With `slowly`, the server sends each byte separately.
+    If `slowly` is True, the server sends each byte separately.
     """
 
     def __init__(
@@ -84,7 +85,7 @@ class TcprosServer:
         self._listener.close()
 
     def _accept(self) -> None:
-        with suppress(OSError):  # The listening socket is closed when the block ends.
+        with suppress(OSError):  # When the listening socket is closed, accept() raises OSError.
             while True:
                 sock, _ = self._listener.accept()
                 self.conversations.append(Conversation())

@@ -24,15 +24,16 @@ class Sessions:
     """The totals of all sessions; a lock protects them, because rospy handles each call on its own thread."""
 
     def __init__(self) -> None:
-        # Each value contains the total and the number of calls; the session with the latest call is the last
-        # item.
+        # The dict maps each session to its total and its number of calls; the session with the latest call is
+        # the last item.
         self._totals: dict[str, tuple[int, int]] = {}
         self._lock = threading.Lock()
 
     def add_up(self, request: AddUpRequest) -> AddUpResponse:
         """Add the amount and return the total of the session.
 
-        Raises ServiceException if there is no session.
+        Raises ServiceException if the connection header has no session, or if the total does not fit into an
+        int32.
         """
         session = request._connection_header.get(FIELD, "")  # type: ignore[attr-defined] # rospy adds it
         if not session:

@@ -1,4 +1,4 @@
-"""The node `tcp_echo`: listens on the TCP port `~port`, and sends back all bytes that it receives.
+"""The node `tcp_echo`: listens on a TCP port, stores the port in `~port`, and sends back all bytes.
 
 The program uses no protocol of ROS. Therefore, a round trip to this program shows the shortest time that a
 service call can take.
@@ -27,7 +27,7 @@ def main() -> None:
 
 
 def _accept(listener: socket.socket) -> None:
-    with suppress(OSError):  # The listening socket was closed.
+    with suppress(OSError):  # When the listening socket is closed, accept() raises OSError.
         while True:
             sock, _ = listener.accept()
             threading.Thread(target=_echo, args=(sock,), daemon=True).start()

@@ -1,4 +1,4 @@
-"""12.5: the cause of each of seven symptoms."""
+"""12.5: find the cause of each of seven symptoms."""
 
 from __future__ import annotations
 

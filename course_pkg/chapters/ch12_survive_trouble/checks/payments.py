@@ -74,9 +74,9 @@ def pays_after(
     words: str,
     deadline: float = DEADLINE,
 ) -> int:
-    """Assert that a payment succeeds; return the number of requests.
+    """Assert that a payment succeeds; return the number of requests that the till received.
 
-    `words` describes the state of the till in an assertion.
+    `words` describes the state of the till in the titles of assertions.
     """
     before, charged, arrived = len(till.requests), len(books.charged), len(till.arrivals)
     result = pay(context, name, context.random.integer(100, 900), deadline)

@@ -1,4 +1,4 @@
-"""12.6: what a client should do after each of six errors."""
+"""12.6: choose what a client should do after each of six errors."""
 
 from __future__ import annotations
 

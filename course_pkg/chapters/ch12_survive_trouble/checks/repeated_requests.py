@@ -20,7 +20,7 @@ ONE = 6.0  # ONE is the time limit in s for a single call.
 MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy machine.
 MEETING = 0.05  # A call of take() waits at most this many s for another call with the same amount.
 FIRST_MEETING = 0.5  # The first of many calls waits at most this many s, so that all other calls can start.
-BUYERS = 10  # This many clients each send their request five times.
+BUYERS = 10  # This many clients send their request five times each.
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -86,7 +86,7 @@ FAILED = "If the purse fails, charge the request when it is sent again. Refuse a
     },
 )
 def charge_once(context: CheckContext) -> None:
-    """Send new requests, repeated requests, requests for which the purse fails, and one without an id.
+    """Send new and repeated requests, requests for which the purse fails, and a request without an id.
 
     Later, send 50 requests at the same time.
     """
@@ -117,10 +117,10 @@ def charge_once(context: CheckContext) -> None:
 
 
 class CheckedPurse:
-    """A purse for the student's till. The kernel has a proxy for the purse.
+    """A purse for the student's till. The student's code in the kernel uses the purse through a proxy object.
 
     Each call of take() waits for a short time, and ends early if another call has the same amount. Therefore,
-    two repeated requests without a lock always run at the same time in this check.
+    if the student's code uses no lock, a request and its repetition always run at the same time.
     """
 
     def __init__(self) -> None:
@@ -225,7 +225,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
 
 
 def _only_one(words: str) -> Hints:
-    """Return a list with the hint `words`; it is shown if the purse was used at most once."""
+    """Return a list with the hint `words`; this hint is shown if the purse was used at most once."""
     return [((lambda actual: len(actual) < 2), words)]
 
 
@@ -326,7 +326,7 @@ def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> Non
 
 
 def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send many requests, so that two random receipt numbers would probably be equal."""
+    """Send many requests; if the receipt numbers are random, two of them are then probably equal."""
     purse.meeting = 0.0
     requests = [
         {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}

@@ -32,8 +32,9 @@ PAUSE = 0.1
 SHORT = 1.0  # If the till never responds, the deadline is this many s after the start of the payment.
 SLACK = 1.5  # On a busy machine, a payment may take this many s longer.
 AWAY = 0.5  # A killed till starts again after this many s, so the second attempt finds no server.
-A_LITTLE = 0.2  # This time in s is shorter than one attempt.
-KEEPING = 2.0  # The check waits at most this many s for the end of a payment that ends in time.
+A_LITTLE = 0.2  # This time in s is shorter than the time limit for one attempt.
+# The check repeats the payment for at most this many s, until one payment ends before its deadline.
+KEEPING = 2.0
 MOST = 5  # In the longer test of the pauses, this many attempts fail.
 LONG = 12.0  # In the longer test of the pauses, the deadline is this many s after the start of the payment.
 
@@ -194,7 +195,7 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
 
 
 def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
-    """Mix refusals and failures in a random order, so that a client with a fixed list of results fails."""
+    """Let the till refuse or fail in a random order; a client with a fixed list of results fails."""
     refusals, failures = (context.random.integer(1, 2) for _ in range(2))
     for refuses in context.random.shuffled([True] * refusals + [False] * failures):
         if refuses:
@@ -274,7 +275,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         actual=f"{pauses[2]:.2f} s",
         hints=SLOW_GROWTH,
     )
-    # The pauses grow slowly, so MOST attempts can fail before the deadline.
+    # If the pauses grow slowly, MOST attempts can fail before the deadline.
     if pauses[2] < 8 * PAUSE:
         before = len(till.arrivals)
         till.plan.extend([Fault(HangUp())] * MOST)
@@ -321,8 +322,7 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
 def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) -> None:
     """Let the till respond after the deadline, but within the time limit of an attempt (0.5 s).
 
-    On a busy machine, even a right client may sometimes end after its deadline. Therefore, the check repeats
-    the payment until a payment ends in time.
+    The check repeats the payment until one payment ends in time, because the machine may be busy.
     """
     returned: list[Json] = []
 

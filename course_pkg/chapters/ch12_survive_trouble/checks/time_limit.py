@@ -12,9 +12,9 @@ from course_pkg.checking.result import Result
 
 ADD = "course_pkg/AddTwoInts"
 LIMIT = 0.8  # LIMIT is the time in s for which the student's function may wait.
-LONG = 4.0  # This time limit in s is longer than every call.
-VERY_LONG = 25.0  # A function that looks ten times within this many s returns the response too late.
-HELD = 10.0  # The server holds a response back for at most this many s.
+LONG = 4.0  # This time limit in s is longer than the duration of every call.
+VERY_LONG = 25.0  # A function that polls only ten times within this many s returns the response too late.
+HELD = 10.0  # The server delays a response by at most this many s.
 WORK = 0.3  # WORK is the duration of a slow handler in s.
 SLACK = 1.2  # On a busy machine, a call may take this many s longer.
 KERNEL_CODE = """
@@ -64,7 +64,7 @@ ERRORS = [
 
 
 class Held:
-    """Return the sum after release() was called."""
+    """A response that the server sends only after release() was called."""
 
     def __init__(self) -> None:
         self._released = threading.Event()
@@ -138,8 +138,7 @@ def _returns_no_late_response(context: CheckContext, name: str, adder: Adder) ->
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
     """Call a server that responds, refuses or does not respond, in a random order.
 
-    The limit is always the same. Therefore, a function fails if it has a fixed list of results, or if it
-    chooses the result by the limit.
+    The time limit is always the same, so a function that chooses its result by the time limit fails.
     """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses

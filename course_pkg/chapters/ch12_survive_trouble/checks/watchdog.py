@@ -18,11 +18,11 @@ EVERY = 0.1  # EVERY is the time in s between two polls of the watchdog.
 SELDOM = 0.5  # The shortest of several pauses must be less than this many s, even on a busy machine.
 CALLS = 4  # CALLS is the maximum number of calls to the master in one poll.
 SOON = 5.0  # SOON is the time limit in s for a few polls on a busy machine.
-# If the check cannot observe the polls of a watchdog, the check stops the master for this many s instead.
+# While the master is stopped, the check waits at most this many s for the watchdog's polls.
 AWAY = 3.0
-LEFT_ALONE = 0.8  # A wrong watchdog would register the name again within this many s.
+LEFT_ALONE = 0.8  # A wrong watchdog would register its service again within this many s.
 LATE = 0.5  # After stop(), the check waits this many s for a wrong registration.
-LAST = 2  # A few polls may still follow stop(); this is their maximum number.
+LAST = 2  # After stop(), the watchdog may make at most this many polls.
 READY = 15.0  # READY is the time limit in s for the start of a master.
 
 ENDLESS = "Watchdog(...) does not return. Run the endless loop in a thread that you start in __init__."
@@ -202,7 +202,7 @@ def _is_registered(
 
 
 def _leaves_the_name(context: CheckContext, master: MasterClient, name: str) -> None:
-    """Register another node with this name; the master returns the latest registration."""
+    """Register the service for another node; assert that the watchdog does not replace this registration."""
     other = f"rosrpc://localhost:{closed_port()}"
     master.register_service("/another", name, other, f"http://localhost:{closed_port()}/")
     fought = wait_until(lambda: master.lookup_service(name) != other, LEFT_ALONE)
@@ -316,8 +316,7 @@ def _stops(context: CheckContext, watched: CheckedMaster) -> None:
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
     """Call stop() during a poll; return "quiet" if the watchdog then stops correctly.
 
-    After stop(), a correct watchdog registers nothing, and makes at most LAST polls. Otherwise, the result
-    describes the mistake.
+    After stop(), a right watchdog does not register the service again, and makes at most LAST polls.
     """
     watched.hold()
     if not watched.inside.wait(SOON):

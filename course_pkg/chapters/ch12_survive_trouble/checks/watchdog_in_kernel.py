@@ -70,7 +70,7 @@ class CheckedMaster:
         self.polls: list[tuple[str, float]] = []
         self.gap = 60.0  # `gap` is the shortest time in s between two consecutive calls of the same method.
         self.inside = threading.Event()  # This event is set while a registration waits.
-        self.stopped_at: float | None = None  # `stopped_at` is the time when stop() returned.
+        self.stopped_at: float | None = None
         self._uri, self._slow = uri, slow
         self._times: dict[str, float] = {}
         self._holds = False

@@ -72,7 +72,7 @@ def patient_client(context: CheckContext) -> None:
 
 
 def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
-    """Return the printed lines with the volume; # replaces each number."""
+    """Run the client; return the printed lines that contain the volume, with # in place of each number."""
     name, sides, volume = _random_box(context)
     server = context.serve(name, BOX, lambda _: {"volume": volume})
     finished = _run(folder, name, sides)
@@ -268,12 +268,10 @@ def _lines(out: str) -> list[str]:
 
 
 def _volumes(out: str, shapes: set[str]) -> list[str]:
-    """Return the lines with a volume.
+    """Return the output lines that contain a volume.
 
     A line contains a volume if it is only a number, if it is "volume" and a number, or if it matches a text
     in `shapes`.
-
-    A number in any other line, such as a number of attempts or of seconds, is not a volume.
     """
     volume = rf"(?i)(.*\bvolume\W*(is|was)?\W*)?{NUMBER.pattern}"
     return [line for line in _lines(out) if re.fullmatch(volume, line) or NUMBER.sub("#", line) in shapes]

@@ -56,9 +56,10 @@ int main(int argc, char** argv) {
   std::cout << "DRAWN" << std::endl;
   return course_pkg::geometry::Request().length != 0;
 }
-"""  # A random text replaces DRAWN, so only a program built from this file prints the text.
+"""  # A random text replaces DRAWN, so only a program built from this code prints the text.
 
-OTHER_PROGRAM = "int main() { return 0; }\n"  # CMakeLists.txt must not use this file.
+# The student's CMakeLists.txt must not build a program from this file.
+OTHER_PROGRAM = "int main() { return 0; }\n"
 SECOND_MAIN = (
     "CMake built box_server from all the files in the folder src, but a program can have only one main(). "
     "Write only src/box_server.cpp into add_executable."
@@ -112,7 +113,8 @@ def _builds(context: CheckContext, finished: Finished) -> None:
         return
     printed = f"{finished.out}\n{finished.err}"
     fault = _fault_in(printed)
-    if not fault.file.endswith("CMakeLists.txt"):  # The check's own program has no mistake.
+    # The check's own program is right, so the mistake is in the student's CMakeLists.txt.
+    if not fault.file.endswith("CMakeLists.txt"):
         fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
         if _lacks_roscpp(context.source(f"file:{FILE}")):
             fault = replace(fault, remedy=NO_ROSCPP)
@@ -135,7 +137,7 @@ def _fault_in(printed: str) -> Fault:
 
 
 def _lacks_roscpp(text: str) -> bool:
-    """Return whether the program is linked with catkin's libraries, although `roscpp` is missing.
+    """Return whether CMakeLists.txt links the program with catkin's libraries, but does not name `roscpp`.
 
     Without `roscpp` in find_package, the variable catkin_LIBRARIES does not contain the library roscpp.
     """

@@ -14,14 +14,15 @@ from course_pkg.workspace import missing_for_cpp
 
 PACKAGE = "src/cpp_boxes"
 BOX = "course_pkg/geometry"
-# The compilation may use this CPU time in s and write files of this size in KiB; one file takes 2 s.
+# For the compilation, -t limits the CPU time in s, and -f limits the size of a file in KiB. One source file
+# takes 2 s.
 LIMITS = "ulimit -t 30 -f 100000"
 COMPILING = 60.0  # The compilation may take this many s; it takes 2 s on an idle machine.
 # The program's node must be on the graph within this many s; it takes 0.1 s on an idle machine.
 STARTING = 6.0
-REGISTERING = 1.5  # After its node is on the graph, the program must serve within this many s.
+REGISTERING = 1.5  # After its node is on the graph, the program must offer its service within this many s.
 STAYING = 0.4  # The program must still run after this many s; without ros::spin(), it ends within 0.1 s.
-POLL = 0.05  # POLL is the time in s between polls.
+POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 SERVED = "the program offers /{0} and continues to run"
 
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
@@ -56,7 +57,7 @@ def started(context: CheckContext, folder: Folder, service: str, name: str) -> R
 
 
 def serves(context: CheckContext, running: Running, service: str, name: str, code: str) -> None:
-    """Assert that the program serves `name` and continues to run; otherwise, report what happened."""
+    """Assert that the program serves `name` and continues to run; if it does not, report the reason."""
     assertion, deadline = SERVED.format(service), time.monotonic() + at_this_load(STARTING)
     while context.look().service(name) is None:
         if running.status is not None or time.monotonic() > deadline:
@@ -71,7 +72,7 @@ def serves(context: CheckContext, running: Running, service: str, name: str, cod
 
 
 def _drops_the_service(code: str) -> bool:
-    """Return whether the code drops the result of advertiseService; the service then ends at once."""
+    """Return whether the code does not store the result of advertiseService, so that the service ends."""
     return bool(re.search(r"(?:^|[;{}])\s*\w+\.advertiseService", code))
 
 

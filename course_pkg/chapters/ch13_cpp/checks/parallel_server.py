@@ -13,11 +13,10 @@ from course_pkg.waiting import wait_until
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
 THINKING, COUNTING = 0.4, 0.05  # These times in s are the same as in the file that the exercise provides.
-# The time between two responses may be at most this many s. If all calls overlap, this time is shorter. If a
-# call has to wait for a thread, this time is longer.
+# The time between two responses may be at most this many s; it is longer if a call has to wait for a thread.
 APART = 0.15
-# The check makes six simultaneous calls. If they do not all overlap, the check repeats them for at most this
-# many s. Several rounds can be necessary, because a call may start late on a busy machine.
+# The check repeats six simultaneous calls for at most this many s, until all calls overlap; on a busy
+# machine, a call may start late.
 OVERLAPPING = 3.0
 
 START = f"""%%writefile {FILE}
@@ -183,7 +182,7 @@ def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str
 
 
 def _number(message: str) -> int:
-    """Return the number in a response, or -1 if the message contains other characters, such as "01"."""
+    """Return the number in a response, or -1 if the message is not a plain number; "01" is also wrong."""
     return int(message) if re.fullmatch(r"0|[1-9]\d*", message) else -1
 
 

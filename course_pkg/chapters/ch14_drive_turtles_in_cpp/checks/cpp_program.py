@@ -14,7 +14,8 @@ from course_pkg.errors import ToolMissing
 from course_pkg.workspace import missing_for_cpp
 
 NAME = "my_turtles_cpp"
-# The compilation may use this CPU time in s and write files of this size in KiB; one file takes 4 s.
+# For the compilation, -t limits the CPU time in s, and -f limits the size of a file in KiB. One source file
+# takes 4 s.
 LIMITS = "ulimit -t 40 -f 100000"
 COMPILING = 90.0  # The compilation may take this many s; it takes 4 s on an idle machine.
 

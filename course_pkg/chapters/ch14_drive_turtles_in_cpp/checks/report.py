@@ -138,12 +138,11 @@ def own_queue(context: CheckContext) -> None:
 
 
 def _code(context: CheckContext, program: TurtleProgram) -> str:
-    """Return the student's program without comments."""
     return COMMENT.sub("", context.source(f"file:{program.path}"))
 
 
 def _leaves_battery_in_the_global_queue(code: str) -> bool:
-    """Return whether /battery certainly uses the global queue.
+    """Return whether the service /battery certainly uses the global callback queue.
 
     For the result True, three conditions must hold for the NodeHandle that creates /battery: it is declared
     without arguments, it never gets another queue, and it is never copied or passed to a function.
@@ -189,7 +188,7 @@ def _reports(context: CheckContext, program: TurtleProgram, clients: int, too_fe
 
 
 def _groups(report: Service, clients: int) -> Iterator[Reply]:
-    """Yield the replies to many groups of simultaneous calls.
+    """Make many groups of simultaneous calls, and yield the replies.
 
     On a busy machine, the calls of one group may arrive one after another, so one group is not enough. If
     threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, failed calls are

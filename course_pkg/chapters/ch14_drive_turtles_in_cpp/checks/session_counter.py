@@ -100,7 +100,7 @@ def _counts(
 
 
 def _call(name: str, kind: ServiceClass, headers: dict[str, str]) -> str:
-    """Call with these `headers` within a time limit; return the message of the response or of the error."""
+    """Call the service `name` with the header fields `headers`; return the message, also of an error."""
     inbox: queue.Queue[str] = queue.Queue()
 
     def call() -> None:

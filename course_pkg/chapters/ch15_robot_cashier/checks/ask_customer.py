@@ -104,7 +104,7 @@ ASKED = 'Wait for detect_customer, call it once, and print "customer" or "nobody
     },
 )
 def the_client(context: CheckContext) -> None:
-    """Start the program before its service. The service responds, refuses, or does not exist."""
+    """Run the program in four cases: the service starts late, responds, refuses, or does not exist."""
     package = examined(context, NAME)
     with ExitStack() as ending:
         detector = _Detector(context.random.number(3.0, 30.0, digits=1))
@@ -192,7 +192,7 @@ class _Detector:
     def __init__(self, wait: float) -> None:
         self.wait = wait
         self.patiences: list[float] = []
-        self.refused = 0  # This is the number of refused calls.
+        self.refused = 0
 
     def answer(self, request: AwaitCustomerRequest) -> Act:
         patience = round(request.patience, 3)

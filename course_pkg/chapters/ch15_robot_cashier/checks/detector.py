@@ -87,7 +87,7 @@ SILENT_CAMERA = "Refuse a call if no message has arrived yet, or if no message a
     goals={WAITED: 3, SEVERAL: 2, "Refuse an impossible value of `patience`.": 1},
 )
 def the_detector(context: CheckContext) -> None:
-    """Publish on customer_seen; call with a customer, without a customer, and several times at once."""
+    """Call the detector while a customer is there, while no customer is there, and several times at once."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -232,7 +232,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     },
 )
 def the_silent_camera(context: CheckContext) -> None:
-    """Call before the first message, 0.4 s and 1.2 s after a message, and when messages come again."""
+    """Call the detector before the first message, 0.4 s and 1.2 s after a message, and after new messages."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -273,7 +273,7 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
 
 
 def _counts_before_the_call(context: CheckContext, name: str, vision: SeenCustomers) -> None:
-    """Make one call shortly after the last message, which reported that no customer was there."""
+    """Make one call shortly after the last message, which reports that no customer is there."""
     if vision.silent_for() > 0.5:
         return  # Skip this assertion, because the machine is too busy.
     detect = context.service(name, AWAIT, timeout=LONG, hints=[(matches("camera"), BEFORE), *FAILED[1:]])

@@ -98,7 +98,7 @@ LISTED = "Start the nodes of the hardware only with hardware:=true. Always start
     goals=[LISTED, 'Pass the argument "wait" to the node, and start the right programs.'],
 )
 def the_launch_file(context: CheckContext) -> None:
-    """Compare the nodes, programs and parameters that roslaunch would start."""
+    """Examine the nodes, programs and parameters that roslaunch would start and set."""
     package = copied(context, MY_CASHIER, examined=LAUNCH, alone=True)
     wait = context.random.number(2.5, 9.0)
     given = [f"wait:={wait}", "hardware:=false"]
@@ -124,7 +124,7 @@ def _printed(command: Running) -> tuple[int | None, str]:
 
 
 def _read(context: CheckContext, command: Running) -> str:
-    """Assert that roslaunch can read the file; return its output."""
+    """Assert that roslaunch can read the launch file; return roslaunch's output."""
     status, printed = _printed(command)
     text = context.source(f"file:{FILE}")
     asked = re.search(r"requires the '(\w+)' arg", printed)
@@ -205,7 +205,7 @@ def longest_delay(printed: str) -> float:
 def starts_programs(
     context: CheckContext, printed: str, assertion: str = "each node has its own program"
 ) -> None:
-    """Assert that each node in READER's output runs the program that has the same name as the node."""
+    """Assert that each node runs the program with the same name; `printed` is the output of READER."""
     for node, started in re.findall(r"^node /(\S+) (.*\S)", printed, re.MULTILINE):
         wanted = f"my_cashier {node}.py" if node in NODES else f"course_pkg {node}"
         context.require(

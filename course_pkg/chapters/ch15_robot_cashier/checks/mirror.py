@@ -120,7 +120,7 @@ def _leaves_out(context: CheckContext, images: list[JointState], invalid: dict[i
 
 
 def _why_invalid(state: JointState) -> tuple[str, str]:
-    """Return a description and a hint for a mirror image of an invalid joint state."""
+    """Return two texts: why the joint state `state` is invalid, and the hint for its mirror image."""
     if state.misses_positions:
         return (
             f"an image of {len(state.position)} positions for {len(state.name)} joints",

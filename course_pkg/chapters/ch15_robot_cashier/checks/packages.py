@@ -55,10 +55,10 @@ def program(name: str) -> Program:
 
 
 def file_of(name: str) -> str:
-    """Return the path of a script in the workspace."""
+    """Return the path of the script `name` in the workspace."""
     return MY_CASHIER.path(f"scripts/{name}.py")
 
 
 def start_of(name: str, comment: str = "...") -> str:
-    """Return the notebook cell with which the student begins a script."""
+    """Return the text of the notebook cell in which the student begins to write the script `name`."""
     return f"%%writefile {file_of(name)}\n{comment}"

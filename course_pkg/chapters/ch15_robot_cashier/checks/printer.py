@@ -1,4 +1,4 @@
-"""Replaces the node receipt_printer; a check can let the printer jam, refuse lines, or wait."""
+"""Replaces the node receipt_printer; a check can let the printer refuse lines or wait."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ JAM = "paper jam: two lines at once"
 
 
 class Printer:
-    """Serves print_line; while the error message `fault` is not empty, it refuses each line.
+    """Serves print_line; while the error message `fault` is not empty, the printer refuses each line.
 
     `lines` contains the printed lines. The printing of a line waits until the event `held` is set; the
     maximum waiting time is 10 s.
@@ -30,7 +30,7 @@ class Printer:
         self._busy = threading.Lock()
 
     def answer(self, request: PrintLineRequest) -> Act:
-        """Print a line, or refuse it."""
+        """Print the line in the request, or refuse the request."""
         if not self._busy.acquire(blocking=False):
             self.jams += 1
             return Refuse(JAM)

@@ -1,4 +1,4 @@
-"""Calls that a handler has to refuse with a ServiceException."""
+"""Asserts that a handler refuses a call with a ServiceException."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Replaces the node vision: it publishes on customer_seen whether a customer is there."""
+"""Replaces the node vision: publishes on customer_seen whether a customer is there."""
 
 from __future__ import annotations
 

@@ -103,7 +103,7 @@ def started(
 ) -> Running:
     """Start a program in the namespace `space`.
 
-    The exercise's global names are remapped to the namespace, too.
+    The global names in `names`, such as /till/set, are remapped to names in this namespace.
     """
     remapped = [f"/{each}:={space}/{WITH_SLASH}/{each}" for each in names]
     given = [f"_{key}:={value}" for key, value in (parameters or {}).items()]
@@ -116,7 +116,7 @@ def started(
 def complete(
     context: CheckContext, running: Running, script: Program, space: str, interface: Interface
 ) -> None:
-    """Wait until the node has all names of its interface; otherwise, report what happened."""
+    """Wait until the node has all names of its interface; if a name does not appear, report the reason."""
     assertion = f"rosrun starts the node {script.node} with all its names"
     node = f"{space}/{script.node}"
     seen = context.look()
@@ -141,7 +141,7 @@ def complete(
 
 
 def still(started: float, least: float) -> float:
-    """Return the time until which a node must have all its names; it has its first name now.
+    """Return the time until which a node must have all its names; the node has its first name now.
 
     The result is `least` s from now, or more if the start of the node took long.
 

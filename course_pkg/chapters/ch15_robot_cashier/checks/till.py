@@ -27,7 +27,7 @@ TILL_SET, TILL_TOTAL, TRIGGER, PRINT_LINE = (
     "std_srvs/Trigger",
     "course_pkg/PrintLine",
 )
-MANY = 8  # MANY is the number of simultaneous calls.
+MANY = 8
 ANSWER = 5.0  # A call may take this many s.
 HOLDING = 0.4  # While a reset waits, the printing of a line takes this many s.
 
@@ -64,7 +64,7 @@ class Till:
     set: Service
 
     def service(self, context: CheckContext, name: str, kind: str, hints: Hints = ()) -> Service:
-        """Return a proxy for another service of the till."""
+        """Return a proxy for the service `name` of the till."""
         return context.service(f"{self.space}/{name}", kind, timeout=ANSWER, hints=hints)
 
 
@@ -79,7 +79,7 @@ def running_till(context: CheckContext, *names: str) -> Iterator[Till]:
 
 
 def _items(context: CheckContext, count: int) -> list[tuple[str, int]]:
-    """Return items with different names; amounts are in cents."""
+    """Return items with different names; their prices are in cents."""
     cents = context.random.integers(count, 50, 900)
     return [(context.random.word(), amount) for amount in cents]
 
@@ -130,10 +130,7 @@ PRINTED = "Print one line for each item, and store the price only after the line
     goals={SUMMED: 3, "Refuse negative cents. Write the item and the cents into the error message.": 1},
 )
 def the_sum(context: CheckContext) -> None:
-    """Send items to the till, send some of them again, and send items that the till must refuse.
-
-    Compare the total.
-    """
+    """Send items to the till, send some of them again, and send items that the till must refuse."""
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         _totals(context, total, {}, COUNT, SUM)
@@ -227,9 +224,9 @@ ORDER = (
     goals={PRINTED: 2, "Print one line at a time. Refuse an item if there is no printer.": 1},
 )
 def the_printed_till(context: CheckContext) -> None:
-    """Set items with a printer that works or refuses; then set many items at the same time.
+    """Call till/set while the printer works, and while it refuses; then make many calls at the same time.
 
-    Later, set an item while no printer is running, and again with a new printer.
+    Later, call till/set without a printer, and again with a new printer.
     """
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
@@ -313,7 +310,7 @@ def _prints_no_illegal_item(context: CheckContext, till: Till) -> None:
 
 
 def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int]) -> None:
-    """Set many items at the same time.
+    """Make many calls of till/set at the same time.
 
     After each printed line, the total must have increased by the item's price.
     """
@@ -410,7 +407,7 @@ def the_reset(context: CheckContext) -> None:
         _resets(context, reset, "already empty", EMPTY)
         items = _items(context, 2)
         paid = sum(cents for _, cents in items)
-        old = items[1][1]  # The first item gets this price, and later its own price.
+        old = items[1][1]  # The first item has this price at first, and later its price in `items`.
         for item, cents in ((items[0][0], old), *items):
             till.set(item=item, cents=cents)
         _resets(context, reset, f"paid {paid} cents", [(f"paid {paid + old} cents", TWICE), (ANYTHING, PAID)])

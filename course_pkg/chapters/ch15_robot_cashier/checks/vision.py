@@ -145,7 +145,8 @@ def image_of(context: CheckContext, width: int, height: int, dark: int, style: S
 def _valid_frames(context: CheckContext, width: int, height: int) -> list[Frame]:
     tenth = width * height // 10
     odd_width, odd_height = width + 1, height + 1
-    odd_dark = odd_width * odd_height // 10  # This number is 0.1 less than a tenth of the points.
+    # The number of dark points in this frame is just below the limit, which is a tenth of all points.
+    odd_dark = odd_width * odd_height // 10
     return [
         Frame(assertion, image_of(context, width, height, dark, style), customer, hint)
         for assertion, dark, customer, style, hint in (

@@ -28,7 +28,7 @@ AWAIT = "course_pkg/AwaitCustomer"
 TRIGGER = "std_srvs/Trigger"
 STRING = "std_msgs/String"
 GREETING = "Good day!"
-STANDING = 1.2  # The first call waits for this many s.
+STANDING = 1.2  # The response to the first call is delayed by this many s.
 # The measured pause must be between these limits (s); the exercise requires 0.5 s, and the machine may be
 # busy.
 PAUSE, TOO_LONG = 0.4, 2.0
@@ -63,8 +63,8 @@ STEPS = (
     Step(False, found(False), "False"),
     Step(True, Late(0.3, found(False)), "False"),
 )
-# These calls of detect_customer end a visit; the first call has the number 1. A call of till/reset follows
-# each of these calls.
+# These calls of detect_customer end a visit; the first call has the number 1. After each of these calls, the
+# node must call till/reset.
 VISITS_END = [number for number, step in enumerate(STEPS, 1) if not step.waits and step.name == "False"]
 NO_CALL = (
     "No call arrived. In the main thread, call detect_customer in a loop until rospy.is_shutdown() "
@@ -222,7 +222,7 @@ class Call:
 
 
 class Detector:
-    """Responds to the calls according to STEPS, and records them."""
+    """Responds to the calls according to STEPS, and records the calls."""
 
     def __init__(self, wait: float) -> None:
         self.wait = wait
@@ -259,7 +259,7 @@ def _called(detector: Detector, times: int) -> bool:
 
 
 def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscription) -> None:
-    """Wait for the calls of STEPS in order, and compare their `patience` and their times."""
+    """Wait for the calls in STEPS in order, and compare the `patience` and the time of each call."""
     for number, step in enumerate(STEPS):
         came = _called(detector, number + 1)
         before = STEPS[number - 1].name if number else "nothing"

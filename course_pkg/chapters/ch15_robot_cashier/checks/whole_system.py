@@ -34,13 +34,13 @@ from course_pkg.waiting import wait_until
 
 # On a busy machine, the system may take this many s to start; it takes 3 s on an idle machine.
 STARTING = 40.0
-# All other nodes must exist this many s after the first node. If the first node started late, they get more
-# time.
+# All other nodes must exist this many s after the first node. If the first node started late, the other nodes
+# get more time.
 COMPLETE = 6.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 REACTION = 5.0  # A greeting, a reset, or the detector's reaction to a change may take this many s.
-# Killed nodes must run again within this many s. If the system needed more than half of this time to start,
-# they get twice the start time.
+# Killed nodes must run again within this many s. If the start of the system took more than half of this time,
+# the killed nodes get twice the start time.
 BACK = 8.0
 EVERY = 0.1  # EVERY is the time in s between two frames.
 WAIT = 1.5  # The argument `wait` has this value in s.
@@ -52,9 +52,9 @@ SERVICES = {
 }
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
-SYSTEM = "roslaunch starts the whole system"  # The text is the title of an assertion.
+SYSTEM = "roslaunch starts the whole system"
 VISITS = 2  # After the restart, the check lets up to this many customers come, until one is greeted.
-MANY = 6  # The number of simultaneous calls in the test with two customers.
+MANY = 6  # MANY is the number of simultaneous calls of till/set.
 
 NOT_LAUNCHED = (
     "The command roslaunch ended. Type `roslaunch my_cashier cashier.launch hardware:=false` in the "
@@ -112,7 +112,7 @@ AFTERWARDS = (
     start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
 )
 def the_whole_system(context: CheckContext) -> None:
-    """Let two customers use the system, let the printer and the camera fail, and kill all nodes."""
+    """Let customers come and leave, let the printer and the camera fail, and kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
     command = f"python3 -c '{READER}' {FILE} hardware:=false"
     programs = package.start(command, worded="roslaunch")
@@ -143,9 +143,9 @@ def the_whole_system(context: CheckContext) -> None:
 
 
 class Counter:
-    """The camera of the counter.
+    """Replaces the camera above the counter.
 
-    The camera publishes a frame every 0.1 s, with or without a customer. A check can also stop the frames.
+    The object publishes a frame every 0.1 s; a frame shows one customer or no customer.
     """
 
     def __init__(self, context: CheckContext, topic: str) -> None:
@@ -166,7 +166,7 @@ class Counter:
 
 
 def _comes_up(context: CheckContext, running: Running, space: str) -> float:
-    """Wait until all services and topics exist; otherwise, report one missing name.
+    """Wait until all services and topics exist; if a name does not appear in time, report this name.
 
     Return the time in s that the system needed to start.
     """
@@ -208,7 +208,7 @@ def _missing(seen: Snapshot, space: str) -> list[tuple[str, str]]:
 
 @dataclass
 class Shop:
-    """The whole system, from the point of view of a customer."""
+    """Uses the whole system as a customer does, and examines the reactions of the system."""
 
     context: CheckContext
     space: str
@@ -222,7 +222,7 @@ class Shop:
         return self.context.service(f"{self.space}/{name}", kind, timeout=timeout, hints=[(ANYTHING, hint)])
 
     def looks_at_frames(self) -> None:
-        """Assert that vision publishes a message for the next frames."""
+        """Assert that the node vision publishes a message for the next frame."""
         before = self.seen.count
         self.context.require(
             "the frames lead to messages on customer_seen",
@@ -233,10 +233,7 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer soon returns `customer`.
-
-        The report shows `hint` if a call fails.
-        """
+        """Return whether detect_customer returns `customer` within REACTION s."""
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
 
         def told() -> bool:
@@ -247,7 +244,7 @@ class Shop:
     def serves_two_customers(self, mirrored: Subscription, arm: Publisher) -> None:
         """Let a customer come and leave.
 
-        Between these two events, two clients buy at the same time, and the printer fails.
+        Between these two events, make MANY calls of till/set at the same time, and let the printer fail.
         """
         context = self.context
         total = self.service("till/total", "course_pkg/TillTotal", COUNTED)
@@ -317,7 +314,7 @@ class Shop:
         )
 
     def notices_a_silent_camera(self) -> None:
-        """Stop the frames, and continue them later."""
+        """Stop the frames, and assert that detect_customer refuses a call; later, publish frames again."""
         self.counter.show(None)
         time.sleep(1.4)
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", NOT_RECOVERED)

@@ -58,7 +58,7 @@ class CounterCamera:
                 return
 
     def _there(self) -> int:
-        """Return the number of customers at the counter; if no customer is planned, plan one."""
+        """Return the number of customers at the counter; plan a customer if no customer is planned."""
         with self._lock:
             now = time.time()
             if self._every and self._counter.next_change(now) == math.inf:
@@ -67,7 +67,7 @@ class CounterCamera:
 
 
 def frame_of(customers: int) -> Image:
-    """Return an image with this number of customers; its stamp is the current time."""
+    """Return an image that shows `customers` customers; the image's stamp is the current time."""
     frame = Image(height=HEIGHT, width=WIDTH, encoding="mono8", step=WIDTH)
     frame.header.stamp = rospy.Time.now()
     frame.header.frame_id = "counter"
@@ -76,7 +76,7 @@ def frame_of(customers: int) -> Image:
 
 
 def main() -> None:
-    """Watch the counter until the node is shut down."""
+    """Publish images of the counter until the node is shut down."""
     if not start_node("counter_camera"):
         return
     rate = number_parameter("~rate", RATE, 0.1, 1000.0)

@@ -18,7 +18,7 @@ LONGEST = 60.0  # A client can wait at most this many s.
 
 
 class CustomerDetector:
-    """Returns whether a customer is there."""
+    """Waits for a customer, and returns whether a customer is there."""
 
     def __init__(self) -> None:
         self._eye = Eye[Bool](lambda message: bool(message.data))
@@ -29,7 +29,7 @@ class CustomerDetector:
 
         Raises ServiceException if `patience` is out of range, or if the camera sends no messages.
         """
-        # NaN is refused, too, because a comparison with NaN is False.
+        # This test refuses NaN, because each comparison with NaN is False.
         if not 0.0 <= request.patience <= LONGEST:
             message = f"patience is {request.patience:g} s, but it has to be from 0 to {LONGEST:g} s"
             raise rospy.ServiceException(message)

@@ -25,8 +25,8 @@ from course_pkg.srv import AwaitCustomer
 QUIET = 5.0  # The node writes at most one warning every QUIET s.
 GRACE = 2.0  # A call may take this many s longer than its `patience`.
 AGAIN = 0.5  # AGAIN is the time in s between a failed call and the next call.
-POLL = 0.2  # POLL is the time in s between calls while a customer is there.
-FAILED = (rospy.ServiceException, CourseError)  # A call can raise these errors.
+POLL = 0.2  # POLL is the time in s between two calls while a customer is there.
+FAILED = (rospy.ServiceException, CourseError)
 
 
 class RobotCashier:
@@ -39,7 +39,7 @@ class RobotCashier:
         self._reset = BoundedProxy("till/reset", Trigger)
         self._over = threading.Event()
         for proxy in (self._detect, self._reset):
-            # Without the cancellation, the shutdown would wait for the end of the current call.
+            # A shutdown cancels the current call; otherwise, the shutdown would wait for the end of the call.
             rospy.on_shutdown(proxy.cancel)
         rospy.on_shutdown(self._over.set)
         rospy.Subscriber("joint_states", JointState, self.mirror, tcp_nodelay=True)

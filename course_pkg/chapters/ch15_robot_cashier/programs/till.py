@@ -56,7 +56,7 @@ class Till:
     def handle_reset(self, _: TriggerRequest) -> tuple[bool, str]:
         """Remove all items; the message contains the sum of their prices in cents.
 
-        The call also succeeds if the till is already empty.
+        If the till is already empty, the call also succeeds.
         """
         with self._turn:
             if not self._cents:

@@ -18,11 +18,11 @@ from course_pkg.checking.result import Result
 from course_pkg.msg import FetchAction, FetchGoal, FetchResult
 from course_pkg.ros.node.action_server import ActionServer
 
-WAIT = 2.0  # The client waits this many s for an action server.
+WAIT = 2.0  # The client waits at most this many s for an action server.
 LONG = 6.0  # A robot needs this many s for a goal, and the client cancels this goal.
 PROMPT = 4.0  # With a robot that needs 0.3 s, the whole call may take this many s on a busy machine.
-ENOUGH = 5.0  # If the robot finishes in time, the client has this time limit in s.
-BRIEF = 0.2  # If the robot ignores the cancellation, the client has this time limit in s.
+ENOUGH = 5.0  # If the robot has to finish in time, the client gets this time limit in s.
+BRIEF = 0.2  # If the robot ignores the cancellation, the client gets this time limit in s.
 LATE = 0.6  # A late robot starts this many s after the call.
 # The client must cancel the goal after this many s. The number is not whole, so a client that rounds it
 # fails.
@@ -84,7 +84,7 @@ class Robot:
         if server.is_preempt_requested():
             self.took = time.monotonic() - began
             self.cancelled.set()
-            wait.wait(0.3)  # The robot still fetches the current thing.
+            wait.wait(0.3)  # The robot first finishes the current thing.
             server.set_preempted(FetchResult(fetched=self._fetched))
         elif self._aborts:
             server.set_aborted(FetchResult(fetched=self._fetched))
@@ -108,11 +108,7 @@ CANCELLED = "Cancel the goal when the time limit is over, and return the number 
     goals=[FETCHED, CANCELLED, "Wait at most 2 s for the action server."],
 )
 def bounded_goal(context: CheckContext) -> None:
-    """Run the function without a robot, and with robots that behave differently.
-
-    The robots are a fast robot, a slow robot, a robot that starts late, and a robot that ignores
-    cancellations.
-    """
+    """Run the student's function without a robot, and with robots that behave differently."""
     _in_time(context)
     context.fulfilled(FETCHED)
     _too_late(context)
@@ -142,7 +138,7 @@ def _wrong_result(robot: Robot, things: int) -> Hints:
 
 @contextmanager
 def _serving(name: str, robot: Robot) -> Iterator[None]:
-    """Serve the action `name` until the end of the block; `robot` executes its goals."""
+    """Serve the action `name` until the end of the block; the object `robot` executes the goals."""
     server = ActionServer(name, FetchAction, robot.execute)
     cancellations = rospy.Subscriber(f"{name}/cancel", GoalID, robot.receive_cancel)
     try:
@@ -259,7 +255,7 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
 
 
 def _goes_on(context: CheckContext) -> None:
-    """Start a robot that ignores the cancellation; the function must still end, with a value or an error."""
+    """Start a robot that ignores cancellations; the student's function must end with a value or an error."""
     name = f"/{context.random.word()}"
     robot = Robot(0, LONG, stubborn=True)
     with _serving(name, robot):
@@ -308,8 +304,8 @@ def _comes(context: CheckContext) -> None:
                 "a server that starts within 2 s gets the goal",
                 expected=str(fetched),
                 actual=str(result.returned()),
-                # A call of this length means that the client waited for a result: it did not wait for the
-                # server, and its goal was lost.
+                # If the call took longer than ENOUGH s, the client did not wait for the server, so its goal
+                # was lost.
                 hint=UNSENT if result.took > ENOUGH else too_short,
             )
 
@@ -348,7 +344,6 @@ WAITED_FOR_EVER: Hints = [
 
 
 def _call_without_robot(context: CheckContext) -> Result:
-    """Send a goal although there is no robot."""
     return context.run(
         "fetch_within", f"/{context.random.word()}", 3, 1.0, within=WAIT + 4.0, hints=WAITED_FOR_EVER
     )

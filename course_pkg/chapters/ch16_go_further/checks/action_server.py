@@ -32,7 +32,7 @@ QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
 TIMEOUT = 6.0  # TIMEOUT is the time limit in s for a goal that needs less than 1 s.
 # For this many s, the check repeats a goal that was too slow, because a busy machine may delay messages.
 BUSY = 2.0
-LAST = 0.2  # LAST is the time in s for the thing during which the check cancels the goal.
+LAST = 0.2  # LAST is the time in s for the last thing; during this time, the check cancels the goal.
 STARTING = 2.0  # STARTING is the time limit in s for the start of a server.
 CANCELLING = 3.0  # A goal must end within this many s after its cancellation.
 FIXED = (
@@ -305,14 +305,14 @@ def _fetches_nothing(context: CheckContext, client: actionlib.SimpleActionClient
 
 
 def _cancels_during_the_last_thing(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
-    """Cancel a goal while the robot fetches its last thing: the goal then ends as SUCCEEDED.
+    """Cancel a goal while the robot fetches its last thing; the goal must then end as SUCCEEDED.
 
-    On a busy machine, the cancellation can arrive before the thing or after it. The result shows the first
-    case, and in the second case a right server and a wrong server behave in the same way.
+    On a busy machine, the cancellation can arrive too early or too late; the check then also accepts a wrong
+    server.
     """
     client.send_goal(FetchGoal(things=1, seconds=LAST))
     wait_until(lambda: client.get_state() == GoalStatus.ACTIVE, LAST)
-    time.sleep(LAST / 4)  # The server examines the goal for a cancellation after it becomes active.
+    time.sleep(LAST / 4)  # The server tests for a cancellation only after the goal has become active.
     client.cancel_goal()
     result = client.get_result() if _is_over(client, TIMEOUT) else None
     complete = result is not None and result.fetched == 1
@@ -372,8 +372,8 @@ def _ends_as(context: CheckContext, client: actionlib.SimpleActionClient, assert
 def _is_over(client: actionlib.SimpleActionClient, timeout: float) -> bool:
     """Return whether the goal ends within `timeout` s.
 
-    The client's method wait_for_result() cannot be used: if a goal ends before send_goal() returns, this
-    method does not notice its end.
+    The client's method wait_for_result() does not notice the end of a goal that ends before send_goal()
+    returns.
     """
     handle = client.gh
     assert handle is not None

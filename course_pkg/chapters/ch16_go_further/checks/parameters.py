@@ -1,4 +1,4 @@
-"""16.3: a parameter; if its value is missing or invalid, a default is used."""
+"""16.3: a function that reads a parameter; if the value is missing or invalid, it returns a default."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ ZERO = "The value was 0, but a speed has to be above 0. Return the default in th
     deadline=20.0,
 )
 def speed_parameter(context: CheckContext) -> None:
-    """Start a robot that has a random name, and set its parameter to several valid and invalid values."""
+    """Set the parameter of a robot with a random name to several valid and invalid values."""
     robot = context.random.word()
     first, default = context.random.numbers(2, 1.0, 9.0)
     (second,) = context.random.numbers(1, 0.1, 0.9)
@@ -82,7 +82,7 @@ def speed_parameter(context: CheckContext) -> None:
             actual="a parameter that the function has set",
             hints=SET,
         )
-        again = context.random.shuffled(cases)[: context.random.integer(3, 5)]  # The order is random.
+        again = context.random.shuffled(cases)[: context.random.integer(3, 5)]
         for value, assertion, expected, hint in (*cases, *again):
             rospy.set_param(f"/{robot}/speed", value)
             _returns(context, robot, default, assertion, expected, hint)

@@ -64,10 +64,7 @@ LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows
     goals=[DELIVERED, STOPPED, LIMITED, "Open and close the door."],
 )
 def parcel_robot(context: CheckContext) -> None:
-    """Start two robots, with and without a capacity as argument, and use all their names.
-
-    The check reads the battery, opens and closes the door, and sends and cancels goals.
-    """
+    """Start a robot with the argument capacity, and a robot without this argument; use both robots."""
     folder = context.folder(files=[FILE])
     with started(context, folder, f"_capacity:={FEW}") as first, started(context, folder) as second:
         battery = context.subscribe(first.name("battery"), "std_msgs/Float32")
@@ -266,10 +263,7 @@ def _cancels(
 
 
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
-    """Assert that a goal with too many parcels did not change the charge.
-
-    The goal with too many parcels came before the last goal.
-    """
+    """Assert that a goal with too many parcels did not change the charge."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     battery.during(3 * PERIOD)  # Wait for further messages, because a wrong charge may follow.
     context.expect(
@@ -319,7 +313,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
 def _aborts_at_once(
     context: CheckContext, client: actionlib.SimpleActionClient, capacity: int, each: float
 ) -> None:
-    """Send a goal with one parcel too many and a time of `each` s per parcel."""
+    """Send a goal with one parcel too many and `each` s per parcel; the goal must be aborted immediately."""
     began = time.monotonic()
     client.send_goal(FetchGoal(things=capacity + 1, seconds=each))
     _ends_as(
@@ -345,7 +339,7 @@ def _aborts_at_once(
 def _ends_as(
     context: CheckContext, client: actionlib.SimpleActionClient, assertion: str, state: int, hint: str
 ) -> None:
-    """Assert that the goal ends in `state`.
+    """Assert that the goal ends with the status `state`.
 
     If the student's function raised an exception, report the exception first.
     """

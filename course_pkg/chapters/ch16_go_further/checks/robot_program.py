@@ -1,6 +1,6 @@
 """Functions that start the student's parcel robot.
 
-The functions also find out whether each name is a topic, a service or an action.
+The functions also find out whether each name of the robot is a topic, a service or an action.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.waiting import at_this_load
 
 FILE = "parcel_robot.py"
-# The program must register a name within this many s; it takes 1 s on an idle machine.
+# The program must register its first name within this many s; it takes 1 s on an idle machine.
 STARTING = 8.0
 # After its first registration, the program must register all other names within this many s.
 REGISTERING = 1.5
@@ -49,7 +49,7 @@ class Robot:
     """A running copy of the student's program in a separate namespace."""
 
     running: Running
-    space: str  # An example is "/abcdef".
+    space: str  # `space` is the robot's namespace, such as "/abcdef".
     node: str
 
     def __enter__(self) -> Robot:
@@ -71,7 +71,7 @@ def started(context: CheckContext, folder: Folder, *arguments: str) -> Robot:
 
 
 def offers_what_fits(context: CheckContext, robot: Robot) -> None:
-    """Wait until the robot has registered its three names, and assert that each has the right kind.
+    """Wait until the robot has registered its three names; assert that each name has the right kind.
 
     The kind of a name is topic, service or action.
     """

@@ -1,4 +1,4 @@
-"""The node `fetcher`: a robot with the action `fetch`; it fetches the things of a goal one by one.
+"""The node `fetcher`: a robot with the action `fetch`; the robot fetches the things of a goal one by one.
 
 A goal contains the number of things (`things`), and the time for each thing in s (`seconds`). The robot
 publishes feedback after each thing. The result contains the number of fetched things, even after a
