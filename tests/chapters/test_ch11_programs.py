@@ -18,7 +18,7 @@ KIND = "course_pkg/AddUp"
 
 @pytest.fixture
 def server() -> Iterator[NodeProcess]:
-    """Start `rosrun course_pkg session_server`, and wait until its services are available."""
+    """Start `rosrun course_pkg session_server`, and wait until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "session_server"]) as process:
         process.wait_for_service("/add_up", timeout=20)
         yield process

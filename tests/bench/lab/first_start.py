@@ -23,7 +23,7 @@ from playwright.sync_api import sync_playwright
 
 from tests.bench.lab.start import FLAGS, STEPS, started, times_of_start
 
-RATIO, SIZE = 1.3, 5.0  # maximum duration of the first start / the second start, and maximum size in MB
+RATIO, SIZE = 1.3, 5.0  # maximum ratio of the durations (first start / second start), and maximum size in MB
 NOBODY = 65534
 DROP = ("setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups")
 
