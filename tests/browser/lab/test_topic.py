@@ -29,7 +29,7 @@ def listening(page: Page) -> Locator:
 
 
 def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Page) -> None:
-    """The message before the subscriber connects is lost, and the next message arrives."""
+    """A message that is published before a subscriber connects is lost, and the next message arrives."""
     with running_notebook(lab_page, lab, "first", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("data").fill("1.5")

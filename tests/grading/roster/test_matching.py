@@ -65,7 +65,7 @@ def test_a_number_decides_between_two_students_with_one_name() -> None:
 
 
 def test_parts_that_contradict_each_other() -> None:
-    """If the number and the name of a folder belong to different students, the student is unclear."""
+    """If a folder's number and name belong to different students, the student is reported as unclear."""
     found = _matched({"doejane_18": ["doejane_18_99_05.ipynb"]})
     assert "different rows of the roster (lines 2 and 3)" in found.unclear["doejane_18"]
     assert found.people["doejane_18"] == Person("doejane", "18")
