@@ -195,7 +195,7 @@ def test_last_of_several_answers_is_used() -> None:
 
 
 def test_identical_copy_leads_to_no_note() -> None:
-    """A copy of the exercise cell leads to no note if it has the same answer, no code or the blank exercise."""
+    """A copied exercise cell with the same answer, no code or the blank exercise leads to no note."""
     for source in (ANSWER, "", BLANK):
         made = _rebuilt(_student(lambda cells, source=source: _copied(cells, D, source), d=ANSWER))
         assert (made.answers["05.1"], made.notes) == (ANSWER, ())
