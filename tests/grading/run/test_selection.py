@@ -59,7 +59,7 @@ def test_a_student_without_the_number_of_the_platform() -> None:
     ("name", "said"), [("A One", "fits 2 students"), ("s99", "is not the name of a student")]
 )
 def test_a_name_that_does_not_fit_one_student(name: str, said: str) -> None:
-    """If a name does not select one student, the error message contains the path of the list of names."""
+    """If a name does not select one student, the error message names grades.csv, but no other student."""
     with pytest.raises(GradingError, match=rf"--student {name} .*{said}.*grades\.csv") as caught:
         selection([name], (), ()).for_students(SUBMISSIONS)
     assert "s01" not in str(caught.value)
