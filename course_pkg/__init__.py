@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from course_pkg.ros import join
     from course_pkg.ros.explain import explain
 
-# catkin generates `course_pkg.srv` in a different folder. Without this line, Python searches for this module
-# only in the checkout.
+# catkin generates the module `course_pkg.srv` in a folder outside the checkout. The next line makes Python
+# search that folder, too.
 __path__ = extend_path(__path__, __name__)
 
 __all__ = [

@@ -1,8 +1,8 @@
 """Run the commands of `course`.
 
-Each package declares its commands in its module `commands.py`. The imports of this module are only the
-standard library and the modules `commands.py`. Therefore, any Python interpreter can run it before the
-set-up. The function of each command imports all other modules when the command runs.
+Each package declares its commands in its module `commands.py`. This module imports only the standard library
+and the modules `commands.py`. Therefore, any Python interpreter can run this module before the set-up of the
+course. A command imports other modules when it runs.
 """
 
 from __future__ import annotations
@@ -109,7 +109,8 @@ def _dispatch(arguments: Sequence[str]) -> int:
 def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
     """Create the missing parts of the environment, and set the environment's variables.
 
-    For a command that imports libraries, the Python interpreter of the environment replaces this process.
+    For a command that imports libraries, the Python interpreter of the virtual environment replaces this
+    process.
     """
     from course_pkg.setup import Places, ensure, environment
 

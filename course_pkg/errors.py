@@ -39,12 +39,12 @@ CourseError
 │   ├── CallInProgress: the panel is already making a call
 │   ├── DrawingFailed: graphviz failed
 │   ├── InvalidPredictions: the file of predictions cannot be read
-│   ├── NotAChoice: an invalid case of choose()
+│   ├── NotAChoice: the arguments of choose() are invalid
 │   └── NotATopic: the string cannot be the name of a topic
 ├── ExportFailed: a file with the student's progress cannot be written
 └── SiteError: the site cannot be built, or a check of the built site failed
 
-Each message explains what happened, where, and what to do next.
+Each error message explains what happened, where, and what to do next.
 """
 
 from __future__ import annotations
@@ -73,12 +73,12 @@ class UnknownType(InterfaceError):
 class BrokenDefinition(InterfaceError):
     """ROS does not accept the text of a service or message type.
 
-    `source` is the name of the type or of the file. `line` and `column` count from 1. `text` is the wrong
-    line. `problem` and `remedy` are the two parts of the message.
+    `source` is the name of the type or of the file. `line` and `column` count from 1. `text` is the line with
+    the error. `problem` and `remedy` are the two parts of the message.
     """
 
     def __init__(self, source: str, line: int, column: int, text: str, problem: str, remedy: str) -> None:
-        # Each tab is replaced by one space, so the mark ^ is below the right letter.
+        # Each tab is replaced by one space, so that the character ^ in the message is below the error.
         shown = text.replace("\t", " ").rstrip()
         excerpt = f"\n    {shown}\n    {' ' * (column - 1)}^" if shown else ""
         super().__init__(f"{source}, line {line}, column {column}: {problem}; {remedy}{excerpt}")
@@ -137,7 +137,7 @@ class NodeNameTaken(GraphError):
 
 
 class NotJoined(GraphError):
-    """This kernel is not a node, is no longer a node, or is a node with another name."""
+    """This kernel is not a node, is no longer a node, or is a node with another name than requested."""
 
 
 class NotAServiceType(GraphError, TypeError):
@@ -175,7 +175,7 @@ class UnknownExecutable(GraphError):
 class NodeFailed(GraphError):
     """The process of a node ended.
 
-    `output` is the last text of its output, and `returncode` is its exit status.
+    `output` is the end of the process's output, and `returncode` is the exit status of the process.
     """
 
     def __init__(self, message: str, output: str = "", returncode: int | None = None) -> None:
@@ -273,7 +273,7 @@ class InvalidPredictions(PanelError):
 
 
 class NotAChoice(PanelError):
-    """A case of choose() expects an option that does not exist, or the list contains two equal cases."""
+    """A case of choose() expects an option that does not exist, or two cases in the list are equal."""
 
 
 class NotATopic(PanelError):

@@ -20,9 +20,9 @@ def version_folder(checkout: Path) -> Path | None:
 
 
 def own_folder(checkout: Path) -> Path:
-    """Return the folder with the user's notebooks and `workspace`: `checkout`, if it is not installed.
+    """Return the folder with the user's notebooks and `workspace`: `checkout`, if this is not installed.
 
-    In a shared installation, it is the folder in the variable COURSE_HOME, or ~/ros-course.
+    For a shared installation, the result is the folder in the variable COURSE_HOME, or ~/ros-course.
     """
     if version_folder(checkout) is None:
         return checkout

@@ -10,8 +10,8 @@ from typing import Any
 def lazily(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
     """Return a `__getattr__` (PEP 562) for `package`.
 
-    The keys of `homes` are modules, relative to the package. Each value contains the names that the module
-    defines, separated by spaces.
+    The keys of `homes` are modules, relative to the package. Each value is a string with the names that the
+    module defines, separated by spaces.
     """
     modules = {name: f"{package}.{module}" for module, names in homes.items() for name in names.split()}
 

@@ -1,7 +1,7 @@
 """The folder for a student's results and own packages.
 
-Each checkout has its own folder outside the checkout. In a shared installation, the folder is in the user's
-own folder, so that an upgrade of the installation does not change the results.
+Each checkout has its own state folder, which is outside the checkout. In a shared installation, the folder is
+in the user's own folder, so that an upgrade of the installation does not change the results.
 """
 
 from __future__ import annotations
@@ -21,12 +21,13 @@ from course_pkg.files import write_atomically
 from course_pkg.installed import DATA, own_folder, version_folder
 from course_pkg.waiting import wait_until
 
-# A program waits at most this time in s for a lock; each program writes only one small file.
+# A program waits at most this time in s for a lock; this is enough, because each program writes only one
+# small file.
 LOCK = 5.0
 
 
 def state_folder() -> Path:
-    """Return the folder of this user's state: COURSE_STATE, or a folder below XDG_STATE_HOME.
+    """Return the folder of this user's state: the value of COURSE_STATE, or a folder below XDG_STATE_HOME.
 
     In a shared installation, the state is in the user's own folder.
     """
@@ -46,7 +47,7 @@ def write_json(path: Path, data: Mapping[str, Any]) -> None:
 
 @contextmanager
 def locked(folder: Path, timeout: float = LOCK) -> Iterator[None]:
-    """Hold the lock of `folder` during the block, so that no other process uses the folder.
+    """Hold the lock of `folder` during the `with` block, so that no other process uses the folder.
 
     The folder is created if it is missing. Raises OSError if the lock cannot be created, or if another
     process holds the lock for `timeout` s. On a file system without locks, the block runs without a lock.

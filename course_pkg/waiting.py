@@ -70,7 +70,7 @@ def at_this_load(seconds: float) -> float:
     """Return a time limit in s for work that takes at most `seconds` s on an idle machine.
 
     The limit grows with the load average of the last minute per core, up to MOST times `seconds`. With a
-    fixed limit, a program that only waits for a CPU would be stopped as if it never ended.
+    fixed limit, a program that only waits for a CPU would be treated as a program that never ends.
     """
     load: float = os.getloadavg()[0] / (os.cpu_count() or 1)
     return seconds * min(max(load, 1.0), MOST)
@@ -78,7 +78,7 @@ def at_this_load(seconds: float) -> float:
 
 @contextmanager
 def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 0.0) -> Iterator[None]:
-    """Raise `error` in the block when the block has run for `seconds` s.
+    """Raise `error` in the `with` block when the block has run for `seconds` s.
 
     If `repeat` is not 0, the error is raised again every `repeat` s, for code that may catch the first error.
     This function uses an alarm signal (SIGALRM). The block therefore has to run in the main thread, and must

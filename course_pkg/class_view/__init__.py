@@ -2,7 +2,7 @@
 
 `course_pkg/sharing` sends the results. A student can forge their own results, so no grade depends on them.
 
-- results: one result, and the validation of what was received
+- results: one result, and the validation of received results
 - storage: the SQLite database
 - model: what the page shows, computed from the results
 - identity: the owner of a token, without a hub or with a JupyterHub

@@ -151,7 +151,7 @@ def _instructions(url: str, teacher_token: str, tokens: Tokens, ip: str) -> str:
 
 
 def _secret(data: Path) -> str:
-    """Return the secret in `data`; the secret signs cookies, and does not change after a restart."""
+    """Return the secret, which signs cookies; a file in the folder `data` stores it between restarts."""
     path = data / SECRET
     if not path.exists():
         write_privately(path, secrets.token_hex(32))

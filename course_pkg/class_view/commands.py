@@ -67,7 +67,7 @@ def _days(text: str) -> float:
     return number
 
 
-# argparse shows these names in its error messages.
+# If an argument is wrong, argparse shows the name of the function that parses it.
 _positive.__name__, _days.__name__ = "number from 1 to 1000", "number of days"
 
 COMMANDS = {

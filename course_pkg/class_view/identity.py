@@ -16,7 +16,7 @@ from course_pkg.class_view.tokens import Tokens
 from course_pkg.types.fields import Plain
 
 TIMEOUT = 10.0  # s
-KEPT = 60.0  # An answer of the hub is used again for this time in s.
+KEPT = 60.0  # An answer of the hub is stored and reused for this time in s.
 MOST = 1_000  # At most this number of the hub's answers is stored.
 
 
@@ -58,7 +58,7 @@ class HubService:
     client: str  # the service's id for OAuth
     prefix: str  # the path of the service, with a slash at both ends
     base: str  # the path of the hub, with a slash at both ends
-    scopes: tuple[str, ...]  # one of these scopes allows a user to open the page
+    scopes: tuple[str, ...]  # a user needs one of these scopes to open the page
 
     @classmethod
     def of(cls, environment: Mapping[str, str]) -> HubService | None:
@@ -95,7 +95,7 @@ class HubIdentity:
         return user.get("kind") == "user" and bool(held & {*self.service.scopes, "access:services"})
 
     def login_url(self, state: str) -> str:
-        """Return the hub's address for a login; after the login, the hub leads the user back to the page."""
+        """Return the hub's address for a login; after the login, the hub redirects the user to the page."""
         query = {"client_id": self.service.client, "redirect_uri": self._redirect, "response_type": "code"}
         return f"{self.service.base}hub/api/oauth2/authorize?{urlencode({**query, 'state': state})}"
 

@@ -14,9 +14,9 @@ from course_pkg.types.fields import Plain
 
 @dataclass
 class Cell:
-    """One part of one student. Times are in s since 1970; 0 means "never"."""
+    """A student's checks of one part of a chapter. Times are in s since 1970; 0 means "never"."""
 
-    tries: int = 0  # the number of checks until the first pass, without the checks of blank answers
+    tries: int = 0  # number of checks until the first pass; a check of a blank answer does not count
     passed: float = 0.0  # the time of the first pass
     stuck: float = 0.0  # the time of the first check that did not pass
     last: float = 0.0  # the time of the last check
@@ -75,7 +75,8 @@ class ClassModel:
 
         If `epoch` differs from the current epoch, return all data.
 
-        A cell is [student, part, tries, passed, stuck, last]. A hint is [part, hint, count, students].
+        In the result, a cell is the list [student, part, tries, passed, stuck, last], and a hint is the list
+        [part, hint, count, students].
         """
         if epoch != self.epoch:
             since = -1
@@ -99,6 +100,6 @@ class ClassModel:
     def _shuffled(self) -> list[tuple[str, str]]:
         """Return the students in an order that looks random, but is always the same.
 
-        With this order, a student's position on the page does not reveal the student's name.
+        Therefore, the position of a student on the page does not reveal the student's name.
         """
         return sorted(self._names.items(), key=lambda each: hashlib.sha256(each[0].encode()).digest())

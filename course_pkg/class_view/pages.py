@@ -91,7 +91,7 @@ class Handler(PageHandler):
 
 
 class Unknown(Handler):
-    """Refuses requests to all other addresses."""
+    """Refuses a request if no other handler has its address."""
 
     def get(self) -> None:
         """Send 404."""
@@ -102,7 +102,7 @@ class TeacherHandler(Handler):
     """Refuses requests without a teacher's token, and requests that come from another page."""
 
     async def prepare(self) -> None:
-        """Refuse the request, or redirect it to the hub's login."""
+        """If the request has no teacher's token, refuse it, or redirect it to the hub's login."""
         if (
             self.request.headers.get("Sec-Fetch-Site", "none") == "cross-site"
             and self.request.path != self.shared.prefix
@@ -176,7 +176,7 @@ class Changes(TeacherHandler):
     """Sends the changes of the class to the page."""
 
     async def get(self) -> None:
-        """Wait for a change, and send it."""
+        """Wait for changes of the class, and send them."""
         since = self.get_query_argument("since", "-1")
         number = int(since) if since.isdecimal() and len(since) < 12 else -1
         self.answer(await self.service.changes(self.get_query_argument("epoch", ""), number, WAIT))
@@ -186,10 +186,10 @@ class Callback(TeacherHandler):
     """Receives the redirect from the hub at the end of a login."""
 
     async def prepare(self) -> None:
-        """Accept each request; unlike other pages, this page needs no teacher's token yet."""
+        """Accept each request; during the login, the browser has no teacher's token yet."""
 
     async def get(self) -> None:
-        """Exchange the code for a token, and open the page."""
+        """Exchange the OAuth code for a token, and open the page."""
         identity = self.service.identity
         expected = self.get_signed_cookie(STATE, max_age_days=DAYS) or b""
         state = self.get_query_argument("state", "").encode()
@@ -211,7 +211,7 @@ class About(Handler):
     """Sends those settings of the service that students are allowed to see."""
 
     async def get(self) -> None:
-        """Send the teacher's name, and after how many days results are deleted."""
+        """Send the teacher's name, and the number of days after which results are deleted."""
         if await self.student() is not None:
             settings = self.service.settings
             self.answer({"teacher": settings.teacher, "days": settings.days})

@@ -26,7 +26,7 @@ class Settings:
 
     teacher: str  # the name that students see
     days: float  # the results of a student are deleted this many days after the student's last result
-    names: Mapping[str, str]  # the students' names by their usernames
+    names: Mapping[str, str]  # a dict from usernames to students' names
 
 
 class ClassService:

@@ -107,7 +107,7 @@ class Storage:
         return int(self._database.execute("PRAGMA data_version").fetchone()[0])
 
     def _forget(self) -> None:
-        """Also remove deleted rows from the write-ahead log, which is a separate file."""
+        """Remove the deleted rows from the write-ahead log, which is a separate file."""
         self._database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
 
     def _prepare(self) -> None:

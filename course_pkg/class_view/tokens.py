@@ -20,7 +20,8 @@ COLUMNS = ("username", "name", "token")
 def names_from(roster: Path | None, students: int) -> dict[str, str]:
     """Return a dict from usernames to names.
 
-    The students come from the roster. Without a roster, `students` usernames are generated.
+    The students come from the roster. Without a roster, the function generates usernames; their number is
+    `students`.
 
     Raises ClassViewError if a student has no username.
     """

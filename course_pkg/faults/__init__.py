@@ -1,12 +1,12 @@
 """Faults of services, nodes and masters.
 
-A fault is not simulated: a stage causes the fault on the running graph, and then undoes it.
+A fault is not simulated: an object of the class Stage causes it on the running graph, and later removes it.
 
     with caused("stale") as stage:
         seen = stage.symptom()
 
 The module `fault` describes one fault, `program` and `stage` cause it, and `catalogue` lists all faults. The
-panel BreakIt shows the faults to students as cases.
+panel BreakIt shows each fault to students as a case that they diagnose.
 """
 
 from typing import TYPE_CHECKING

@@ -46,9 +46,9 @@ def caused(name: str) -> Iterator[Stage]:
 
 
 def select(*chosen: str) -> tuple[Fault, ...]:
-    """Return the faults with a name or group in `chosen`, or all faults if `chosen` is empty.
+    """Return the faults whose name or group is in `chosen`, or all faults if `chosen` is empty.
 
-    Raises UnknownFault if a name is neither a fault nor a group.
+    Raises UnknownFault if a name in `chosen` is neither a fault nor a group.
     """
     found = [_found(name) for name in chosen] if chosen else [every_fault()]
     return tuple(dict.fromkeys(each for some in found for each in some))

@@ -16,12 +16,13 @@ TIMEOUT = 10.0  # A program that is expected to end has to end within this time 
 class Fault:
     """One fault.
 
-    Students first see only `story`. Later, they choose a diagnosis and a remedy; `diagnosis` and `remedy` are
-    the correct choices. The function `play` causes the fault on a stage (see the module `stage`). `visitor`
-    is a program or command that shows the symptom: the text of a Python program, or "$ " and a command line.
+    At first, students see only the text `story`. Later, they choose a diagnosis and a remedy; `diagnosis` and
+    `remedy` are the correct choices. The function `play` causes the fault on a stage (see the module
+    `stage`). `visitor` is a program or command that shows the symptom: the text of a Python program, or "$ "
+    and a command line.
 
-    `look` describes the symptom in one or two words. The first word is a group, and the second word is a
-    subgroup of very similar symptoms. The wrong diagnoses for students come from faults with a similar
+    `look` describes the symptom in one or two words. The first word names a group of symptoms, and the second
+    word a subgroup of very similar symptoms. The wrong diagnoses for students come from faults with a similar
     `look`. `unlike` contains faults whose diagnoses would also be correct, so they are not offered as wrong
     choices.
     """
@@ -46,5 +47,5 @@ class Fault:
 
     @property
     def is_command(self) -> bool:
-        """Whether the visitor is a command line, and not a Python program."""
+        """Whether `visitor` is a command line, and not a Python program."""
         return self.visitor.startswith("$ ")

@@ -1,4 +1,4 @@
-"""Run one short program of a case, as `python FILE` does.
+"""Run one short Python program, as `python FILE` does.
 
 The process reads a byte from a pipe before it runs the program.
 
@@ -6,8 +6,8 @@ usage: player.py READY GO NAME CODE [ARGUMENT …]
 
 READY and GO are file descriptors. When the interpreter and rospy are loaded, this program writes a byte to
 READY, reads a byte from GO, and runs the code. After the code has ended, this program writes the exit status
-to READY as one byte. So a case can start the interpreter early, and then measure only the running time of the
-code.
+to READY as one byte. Therefore, the caller can start the interpreter early, and then measure only the running
+time of the code.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def main(argv: list[str]) -> int:
     sys.stdout.flush()
     sys.stderr.flush()
     os.write(ready, bytes([status & 255]))
-    # Wait here until the case kills this process, because rospy's own shutdown takes 0.6 s or more.
+    # Wait until the parent process kills this process, because rospy's own shutdown takes 0.6 s or more.
     os.read(go, 1)
     return status
 
@@ -53,7 +53,7 @@ def _run(name: str, code: str) -> int:
 
 
 def _cut(shown: traceback.TracebackException, name: str) -> None:
-    """Keep only the lines of the file `name` in a traceback, and remove its chained exceptions."""
+    """Remove from a traceback the chained exceptions, and all lines that are not in the file `name`."""
     shown.stack = traceback.StackSummary.from_list([each for each in shown.stack if each.filename == name])
     shown.__cause__ = shown.__context__ = None
 

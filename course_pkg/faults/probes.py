@@ -1,4 +1,4 @@
-"""The tools with which a student examines a case; the tools are real commands with a time limit."""
+"""The tools with which a student looks for the cause of a fault: real commands with a time limit."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TOOLS = {
 
 
 def probe(stage: Stage, tool: str) -> Seen:
-    """Run a tool from TOOLS on a case, and return the tool's output; a tool takes at most 10 s."""
+    """Run a tool from TOOLS on a stage's graph, and return the tool's output; a tool takes at most 10 s."""
     if tool == "again":
         return stage.symptom()
     if tool == "output":
@@ -48,7 +48,7 @@ def _output(stage: Stage) -> Seen:
 
 
 def _cleaned(stage: Stage) -> Seen:
-    """Remove stale registrations of this case's nodes; `rosnode cleanup` does this for all nodes."""
+    """Remove stale registrations of this fault's nodes; `rosnode cleanup` does this for all nodes."""
     try:
         nodes = MasterClient(stage.uri).system_state().nodes
         own = [node for node in nodes if node.startswith(f"{stage.namespace}/")]

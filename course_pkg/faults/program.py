@@ -1,4 +1,4 @@
-"""Run a short program of a case in a separate process.
+"""Run a short program for a fault in a separate process.
 
 The process starts early, and runs the program after begin().
 """
@@ -23,8 +23,8 @@ from course_pkg.waiting import wait_until
 
 PLAYER = Path(__file__).with_name("player.py")
 READY = 15.0  # An interpreter has to start and import rospy within this time in s; the usual time is 0.3 s.
-LONGEST = 8000  # If an output has more bytes, only the last LONGEST bytes are shown.
-INTERVAL = 0.01  # This is the time in s between two polls.
+LONGEST = 8000  # Only the last LONGEST bytes of an output are shown.
+INTERVAL = 0.01  # The state of a process is polled after each pause of this time in s.
 # The pattern matches a terminal's escape codes for colours and for the window title.
 _FOR_A_TERMINAL = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\a]*\a")
 
@@ -49,7 +49,7 @@ class Seen:
 
     @property
     def verdict(self) -> str:
-        """A short text about the end of the program."""
+        """A short text that says how the program ended, or that it is still running."""
         if self.status is None:
             return f"no answer within {self.seconds:.0f} s; still waiting"
         end = "ended" if self.status == 0 else f"ended with status {self.status}"
@@ -59,7 +59,7 @@ class Seen:
 class Program:
     """A Python program or a command in a separate process.
 
-    The process ends at the latest when the current process ends.
+    The program's process ends at the latest when the current process ends.
 
     A Python program waits for begin(); a command begins at once.
     """
@@ -171,7 +171,8 @@ class Program:
 def _still(pid: int) -> bool:
     """Return whether all threads of a process are suspended.
 
-    The states are read from /proc, because psutil returns only one state for the whole process.
+    The states of the threads are read from /proc, because psutil returns only one state for the whole
+    process.
     """
     try:
         stats = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/stat")]

@@ -1,4 +1,4 @@
-"""The programs that several cases use: the server of /door (`keeper`), and its client (`VISITOR`)."""
+"""The programs that several faults use: the server of /door (`keeper`), and its client (`VISITOR`)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ rospy.spin()
 def keeper(body: str = WELL, **changes: str) -> str:
     """Return a program that serves /door; `body` is the code of its handler.
 
-    Each key of `changes` is replaced by its value in the text of the program.
+    In the text of the program, each key of `changes` is replaced by its value.
     """
     code = _KEEPER.format(body=body.replace("\n", "\n    "))
     for old, new in changes.items():
@@ -56,7 +56,7 @@ def serving(body: str, imports: str = "") -> Callable[[Stage], None]:
 
 
 def nothing(_: Stage) -> None:
-    """Change nothing on the graph."""
+    """Do not change the graph; some faults need only the program that shows the symptom."""
 
 
 def kill_server(stage: Stage) -> None:
@@ -65,10 +65,10 @@ def kill_server(stage: Stage) -> None:
 
 
 def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str:
-    """Return the source of a program that starts the node `visitor` and then runs `lines`."""
+    """Return the source code of a program that starts the node `visitor` and then runs `lines`."""
     return f'import rospy\n{imports}\n\nrospy.init_node("visitor")\n{lines}\n'
 
 
 def calling(call: str) -> str:
-    """Return the source of a client in which the code `call` replaces the call of /door."""
+    """Return the source code of a client in which the code `call` replaces the call of /door."""
     return VISITOR.replace("print(move_door(True))", call)

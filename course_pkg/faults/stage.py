@@ -1,4 +1,4 @@
-"""A stage causes a fault on the graph, and removes the fault again.
+"""A stage causes a fault on the graph, and later removes the fault.
 
 A stage runs the programs of the fault, and if necessary a separate master. All nodes and services of a stage
 are in one namespace of the running graph, such as /lab. A stage does not change other nodes and services.
@@ -30,7 +30,7 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 REAPER = Path(__file__).with_name("reaper.py")
-# In these environment variables, the stage sets folders for log files and other files.
+# The stage sets these environment variables to folders for log files and other files.
 FOLDERS = ("ROS_LOG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")
 READY = 10.0  # A program has to be on the graph within this time in s; usually, this takes 0.4 s.
 NAMESPACES = ("/lab", *(f"/lab{number}" for number in range(2, 10)))
@@ -52,7 +52,7 @@ class Playable(Protocol):
 
     @property
     def is_command(self) -> bool:
-        """Whether the visitor is a command line."""
+        """Whether `visitor` is a command line."""
 
     @property
     def timeout(self) -> float:
@@ -78,7 +78,7 @@ class Stage:
 
     @property
     def door(self) -> str:
-        """The full name of the service of this case."""
+        """The full name of the service /door in the stage's namespace."""
         return f"{self.namespace}/door"
 
     def cause(self) -> None:
@@ -86,8 +86,8 @@ class Stage:
         try:
             self.fault.play(self)
             if not self.fault.is_command:
-                # On a busy machine, the start of the visitor would delay the fault, so the visitor starts
-                # last.
+                # On a busy machine, the start of the program `visitor` would delay the fault, so this program
+                # starts last.
                 self.expect_visitor()
         except BaseException:
             self.undo()
@@ -113,7 +113,7 @@ class Stage:
         self._end()
 
     def expect_visitor(self) -> None:
-        """Start the visitor's interpreter early, so that symptom() does not have to wait for it."""
+        """Start the interpreter of the program `visitor` early, so that symptom() does not wait for it."""
         if self._visitor is None:
             text = self.fault.visitor
             self._visitor = (
@@ -182,7 +182,7 @@ class Stage:
         """Wait until `condition` is true; raises NodeFailed if `program` ends first, or after 10 s."""
 
         def settled() -> str:
-            # Read `over` first, because the program may fulfil the condition and then end.
+            # Read `over` first, because the program may make the condition true and then end.
             over = program.over
             return "met" if condition() else "over" if over else ""
 
@@ -190,7 +190,7 @@ class Stage:
             raise NodeFailed(f"A case could not be set up. The output of its program: {program.output()}")
 
     def environment(self, more: dict[str, str]) -> dict[str, str]:
-        """Return the environment variables for the case's programs.
+        """Return the environment variables for the fault's programs.
 
         The variables set the master, the namespace and the log folder.
         """
@@ -204,7 +204,8 @@ class Stage:
     def local(self, text: str) -> str:
         """Return `text` with the real namespace and the real port.
 
-        The stage's namespace replaces /lab, and the port of the stage's master replaces MASTER_PORT.
+        In `text`, the stage's namespace replaces /lab, and the port of the stage's master replaces
+        MASTER_PORT.
         """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 
@@ -233,7 +234,7 @@ class _Resources:
         self._uri = uri
         self._namespace = namespace
         self.folder = Path(tempfile.mkdtemp(prefix="course-lab-"))
-        # If this process is killed, the reaper removes the registrations of killed programs.
+        # If this process is killed, the program reaper.py removes the registrations of killed programs.
         self._reaper = SupervisedProcess(
             [sys.executable, "-I", "-S", str(REAPER), uri, namespace, str(self.folder)], env=os.environ
         )

@@ -55,7 +55,7 @@ class Wanted:
 
     def __init__(self, chapters: Sequence[str]) -> None:
         self.notebooks = {notebook_of(chapter): chapter for chapter in chapters}
-        # The keys are all chapters of the course, and the values are the packages that they require.
+        # This dict maps each chapter of the course to the packages that the chapter requires.
         self._asking: dict[str, set[str]] = {}
         for chapter in all_chapters():
             for name in (name for part in parts_of(chapter) for name in part.package_files):
@@ -96,7 +96,7 @@ def collect(options: Options) -> int:
             ),
         ):
             table = TimesTable(out)
-            # The table is written first, so that a user can repeat an interrupted collection.
+            # times.csv is written first, so that a user can repeat an interrupted collection.
             table.replace((), ())
             for home in homes:
                 _collect_one(home, folder, wanted, out, table, found)
@@ -138,7 +138,7 @@ def _collect_one(
 
 
 def _rows(student: str, files: Sequence[WorkFile], wanted: Wanted) -> Iterator[Row]:
-    """Yield a row for each file, and a row for each package with the time of its newest file."""
+    """Yield the rows of times.csv: one per file, and one per package with the time of its newest file."""
     newest: dict[str, WorkFile] = {}
     for file in files:
         for chapter in wanted.chapters_of(file):

@@ -34,7 +34,7 @@ def release(options: Options, hidden: Collection[str], root: Path | None = None)
     """Write the edition, print its location and how to hand it out, and return 0.
 
     `hidden` contains the commands that do not work in the edition. Raises HandoutError if the folder contains
-    other files or if an option is wrong. In this case, nothing is written.
+    files that no release has written, or if an option is wrong. In both cases, nothing is written.
     """
     checkout = root or Places.of().checkout
     released = chosen_chapters(options.path, options.chapters)

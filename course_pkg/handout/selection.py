@@ -14,8 +14,8 @@ def chosen_chapters(path: str = "", listed: Sequence[str] = ()) -> tuple[str, ..
 
     The result is sorted, such as ("05", "06").
 
-    For a path with two possible last chapters, the result contains both chapters. Raises HandoutError for an
-    unknown path or chapter.
+    For a learning path with two possible last chapters, the result contains both chapters. Raises
+    HandoutError for an unknown path or chapter.
     """
     if path:
         return _of_path(path)

@@ -59,7 +59,7 @@ def make_accounts(names: Iterable[str]) -> list[str]:
 
 
 def home_problems(names: Iterable[str]) -> Iterator[str]:
-    """Yield a line for each student in `names` who cannot use the home folder of the account."""
+    """Yield a line for each student in `names` who cannot use the home folder of their account."""
     for account in map(pwd.getpwnam, names):
         if problem := home_problem(Path(account.pw_dir), account.pw_uid):
             yield f"The student {account.pw_name} cannot use the hub: {problem}"

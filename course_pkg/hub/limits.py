@@ -23,7 +23,7 @@ class Limits(NamedTuple):
 
 
 def group_of_hub(root: Path = CGROUPS) -> Path | None:
-    """Return the parent of all students' control groups, or None if this process cannot create it."""
+    """Return the control group for all students' groups, or None if this process cannot create it."""
     try:
         available = (root / "cgroup.controllers").read_text().split()
         if not set(CONTROLLERS) <= set(available):

@@ -1,6 +1,6 @@
 """One-time passwords: each password is accepted once.
 
-After that, a cookie in the browser identifies the student.
+After the login, a cookie in the browser identifies the student.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from course_pkg.setup.stamps import locked
 
 LETTERS = "abcdefghjkmnpqrstuvwxyz23456789"  # without letters and digits that look alike
 GROUPS, LENGTH = 3, 4  # 31 ** 12 possible passwords, such as k3fp-wx7d-m9qa
-SCRYPT = {"n": 2**14, "r": 8, "p": 1}  # RFC 7914; one hash takes about 50 ms
+SCRYPT = {"n": 2**14, "r": 8, "p": 1}  # parameters of scrypt (RFC 7914); one hash takes about 50 ms
 
 
 class Passwords:
@@ -56,7 +56,7 @@ class Passwords:
 class _Record:
     """A context manager that reads the file at the start of the `with` block, and writes it at the end.
 
-    Other processes wait during the block.
+    During the block, other processes that use the file wait.
     """
 
     def __init__(self, file: Path) -> None:

@@ -10,8 +10,8 @@ from pathlib import Path
 from course_pkg.hub.passwords import write_private
 
 VARIABLE = "COURSE_HUB_SETTINGS"  # This environment variable contains the path of the settings file.
-# This variable contains the path of a folder. In this folder, each student's server creates a folder for
-# temporary files.
+# This environment variable contains the folder in which each student's server creates a folder for temporary
+# files.
 SCRATCH = "COURSE_HUB_SCRATCH"
 FOLDER = "ros-course"  # the course's folder in each home folder
 
@@ -22,7 +22,7 @@ class Settings:
 
     state: str  # the folder of the hub's data, readable only by the hub
     released: str  # the git repository with the released notebooks
-    proxy: str  # the program of the proxy
+    proxy: str  # the path of the proxy program
     url: str
     hub_port: int
     proxy_port: int

@@ -59,8 +59,8 @@ def pull(repository: str, folder: Path) -> None:
 
     If git fails, the server starts with the notebooks that are already in the folder.
     """
-    # The repository belongs to another user. In this case, git reads this setting only from a configuration
-    # file outside of the repository.
+    # The repository belongs to another user, so git reads the setting safe.directory only from a
+    # configuration file outside the repository.
     environment = {**os.environ, "GIT_CONFIG_SYSTEM": str(Path(repository).parent / GIT_SETTINGS)}
     command = [sys.executable, "-m", "nbgitpuller.pull", f"file://{repository}", BRANCH, str(folder)]
     try:
@@ -73,14 +73,14 @@ def pull(repository: str, folder: Path) -> None:
 
 
 def _serve() -> None:
-    # jupyterlab runs `node` when it is imported, see course_pkg/lab/__main__.py
+    # without programs on PATH, the import of jupyterlab cannot run `node`, see course_pkg/lab/__main__.py
     path = os.environ["PATH"]
     os.environ["PATH"] = os.devnull
     import jupyterlab.labapp  # noqa: F401
 
     os.environ["PATH"] = path
     with _without_database():
-        # main() imports this module by its name.
+        # Import this module while the empty modules exist; otherwise, main() imports it later.
         import jupyterhub.singleuser.extension  # noqa: F401
         from jupyterhub.singleuser import main as serve
 
@@ -89,11 +89,10 @@ def _serve() -> None:
 
 @contextmanager
 def _without_database() -> Iterator[None]:
-    """During the `with` block, replace SQLAlchemy and the hub's pages by empty modules.
+    """During the `with` block, replace the modules of SQLAlchemy and of the hub's pages by empty modules.
 
-    jupyterhub imports SQLAlchemy and these pages in a student's server, too, although only the hub uses them.
-    For example, the log of jupyterhub has a special case for one page of the hub. The imports would need 30
-    MiB of memory in each server.
+    jupyterhub imports these modules in a student's server, too, although only the hub uses them. The imports
+    would need 30 MiB of memory in each server.
     """
     placeholders = {name: ModuleType(name) for name in (*ONLY_IN_HUB, *NAMES_ONLY_IN_HUB)}
     for name, defined in NAMES_ONLY_IN_HUB.items():
@@ -102,7 +101,7 @@ def _without_database() -> Iterator[None]:
     try:
         yield
     finally:
-        # The placeholders are removed, because an extension of the server may import the real modules later.
+        # The empty modules are removed, because an extension of the server may import the real modules later.
         for name in placeholders:
             sys.modules.pop(name, None)
 

@@ -30,7 +30,7 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
     _group: Path | None = None
 
     def _cmd_default(self) -> list[str]:
-        # The supervisor writes a process id to file descriptor 3, but nothing here needs this id.
+        # The supervisor writes a process id to file descriptor 3, but the spawner does not need this id.
         supervisor = [sys.executable, "-I", "-S", str(PROGRAM), str(os.getpid()), "3", "", "", "", "", ""]
         shell = ["/bin/sh", "-c", 'exec "$0" "$@" 3>/dev/null']
         return [*shell, *supervisor, sys.executable, "-m", "course_pkg.hub.single_user"]

@@ -129,8 +129,8 @@ def renew_password(user: str, data: Path | None) -> int:
 def data_folder(places: Places, given: Path | None) -> Path:
     """Return the folder of the hub's data. Students can read this folder, except its subfolder `private`.
 
-    In a shared installation, this folder is next to the folders of the versions, so an upgrade does not
-    delete it.
+    In a shared installation, the folder of the hub's data is next to the folders of the versions, so an
+    upgrade does not delete the data.
     """
     version = version_folder(places.checkout)
     return (given or (version.parents[1] if version else places.cache) / "hub").absolute()
@@ -233,8 +233,8 @@ def _student_environment(places: Places, repository: Path) -> dict[str, str]:
     """Return the variables of the course for the students' servers."""
     variables = environment.merged(places, {"PATH": os.defpath})
     variables.pop("ROS_LOG_DIR")
-    # The paths of the kernels' sockets begin with this name. The name is short, because Linux limits the path
-    # of a socket to 107 bytes. The hub's supervisor deletes this folder.
+    # The kernels' sockets are in this folder. Its path is short, because Linux limits the path of a socket to
+    # 107 bytes. The hub's supervisor deletes this folder.
     scratch = Path(tempfile.mkdtemp(prefix="course-hub-", dir="/tmp"))
     # These are the permissions of /tmp: each student can create a folder, and only its owner can delete it.
     scratch.chmod(0o1777)

@@ -1,4 +1,4 @@
-"""Programs that the hub needs and that pip does not provide: its proxy, and a certificate for a trial."""
+"""What the hub needs and pip does not provide: the proxy program, and a certificate for a test of the hub."""
 
 from __future__ import annotations
 

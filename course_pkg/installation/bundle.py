@@ -1,9 +1,10 @@
 """`course bundle`: writes an installer for machines without internet.
 
-These machines have the same distribution and the same type of processor as this machine.
+The installer works only on machines with the same distribution and the same type of processor as this
+machine.
 
-The folder contains `course` (the students' edition), `packages` (all .deb files that a minimal system needs,
-with an index for apt), `wheels` (the Python libraries) and `install.sh`.
+The installer is a folder with `course` (the students' edition), `packages` (all .deb files that a minimal
+system needs, with an index for apt), `wheels` (the Python libraries) and `install.sh`.
 """
 
 from __future__ import annotations

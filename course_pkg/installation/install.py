@@ -66,7 +66,7 @@ def _version_id(edition: Path) -> str:
 
 
 def _make(version: Path, edition: Path) -> None:
-    """Build a version; it is complete when its record exists. If the build fails, only the log is kept."""
+    """Build a version; installation.json is written last. If the build fails, only the log is kept."""
     places = Places(version / "course", version / BUILT)
     shutil.rmtree(version, ignore_errors=True)
     # uv has to copy files. With hard links to uv's cache, the owner of this cache could change the
@@ -99,8 +99,8 @@ def _compile(places: Places) -> None:
     start.
     """
     folders = [places.checkout / "course_pkg", places.venv / "lib", places.workspace / "devel" / "lib"]
-    # The exit status is ignored, because some libraries contain files that this version of Python cannot
-    # compile.
+    # The exit status of compileall is ignored, because some libraries contain files that this version of
+    # Python cannot compile.
     subprocess.run([places.python, "-m", "compileall", "-qq", "-j", "0", *folders], check=False)
 
 

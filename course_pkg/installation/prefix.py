@@ -38,7 +38,7 @@ class Prefix:
         }
 
     def claim(self) -> None:
-        """Create the folder and mark it.
+        """Create the folder, and mark it as a shared installation.
 
         If the folder cannot be used, raise SetupError and change nothing.
         """
@@ -84,7 +84,8 @@ class Prefix:
         others = [path for path in self.versions.iterdir() if path not in kept]
         busy = [path for path in others if any(users_of(path))]
         for path in set(others) - set(busy):
-            # delete this file first, so that a half-removed version is not complete
+            # delete this file first, so that a version does not count as complete if its removal is
+            # interrupted
             (path / RECORD).unlink(missing_ok=True)
             shutil.rmtree(path)
         return busy
@@ -111,8 +112,8 @@ class Prefix:
 def users_of(folder: Path) -> Iterator[int]:
     """Yield the ids of the processes that have `folder` in their command line or environment.
 
-    The environment of every program of the course contains the folder. Only root can read the environments of
-    other users' processes.
+    The environment of every program of the course contains the path of the folder. Only root can read the
+    environments of other users' processes.
     """
     name = os.fsencode(folder) + b"/"
     for process in Path("/proc").glob("[0-9]*"):

@@ -1,7 +1,7 @@
 """The course's additions to the Jupyter server: an extension, and classes for checkpoints and files.
 
-The set-up enables the extension in the course's environment. Therefore, the server has the same settings if a
-user starts it with `jupyter lab` or `jupyter notebook`, and not with `course lab`.
+The set-up enables the extension in the course's environment. Therefore, the server has the same settings even
+if a user starts it with `jupyter lab` or `jupyter notebook` instead of `course lab`.
 """
 
 from __future__ import annotations
@@ -104,8 +104,8 @@ def _load_jupyter_server_extension(server: Server) -> None:
 def _prepare_ros(server: Server) -> None:
     """Set the environment of ROS, and start a master if ROS_MASTER_URI is not set.
 
-    Kernels and terminals inherit this environment. `course lab` has already done both before it starts the
-    server.
+    Kernels and terminals inherit this environment. If `course lab` has started the server, the environment
+    and the master already exist.
     """
     if "ROS_PACKAGE_PATH" not in os.environ and not environment.apply():
         server.log.warning("The course's workspace is not built. Run `./course doctor` in a terminal.")
@@ -124,7 +124,7 @@ def _prepare_ros(server: Server) -> None:
 
 
 def _make_workspace(server: Server) -> None:
-    """Create the folder of the student's own packages if the server shows the checkout."""
+    """Create the folder of the student's own packages if the server's root folder is the checkout."""
     if Path(server.root_dir).resolve() == Places.of().checkout:
         try:
             make_own_workspace()
@@ -163,7 +163,7 @@ def undelayed(stock: type[Connection]) -> type[Connection]:
 class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base class has no types.
     """Stores the checkpoints of notebooks in a folder outside the checkout.
 
-    In this folder, each checkpoint has the same path as its notebook.
+    In the folder of the checkpoints, each checkpoint has the same path as its notebook in the checkout.
 
     Jupyter's own class would store the checkpoints of a chapter and of its solution in the same file, because
     both notebooks have the same name.
@@ -190,7 +190,7 @@ class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base
 def kernel_language() -> dict[str, Any]:
     """Return the same data about the language as ipykernel's message kernel_info_reply.
 
-    The class ipykernel.ipkernel.IPythonKernel has these data, but importing it would delay the server's
+    The class ipykernel.ipkernel.IPythonKernel has the data, but importing this class would delay the server's
     start.
     """
     return {

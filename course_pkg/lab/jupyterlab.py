@@ -100,7 +100,7 @@ def _serve(
 
 
 def server_port(ip: str, candidates: Sequence[int]) -> int:
-    """Return the first free port of `candidates` at `ip`; raises PortBusy if there is none."""
+    """Return the first free port of `candidates` at `ip`; raises PortBusy if no port is free."""
     try:
         return free_port(ip, candidates)
     except OSError as error:
@@ -203,7 +203,7 @@ def _short_folder() -> str | None:
 def _user_settings() -> Path:
     """Return the folder of the user's own settings for JupyterLab, such as a theme.
 
-    The course's Jupyter uses these settings, too.
+    The JupyterLab of the course uses the user's own settings, too.
     """
     given = os.environ.get("JUPYTERLAB_SETTINGS_DIR")
     config = os.environ.get("JUPYTER_CONFIG_DIR") or os.path.expanduser("~/.jupyter")
@@ -213,7 +213,7 @@ def _user_settings() -> Path:
 def _make_workspace() -> None:
     """Create the folder of the student's own packages.
 
-    Print a message on stderr if this folder cannot be used.
+    Print a message on stderr if the folder cannot be used.
     """
     try:
         make_own_workspace()

@@ -53,7 +53,8 @@ def _released(checkout: Path) -> list[str]:
 def _deliver(places: Places, name: str, delivered: dict[str, str]) -> bool:
     """Copy the file `name` if the user has no changed copy.
 
-    Return False if the user has a changed copy and there is a new version; the caller then shows a message.
+    If the user has changed the file and there is a new version, return False; the caller then shows a
+    message.
     """
     content, own = (places.checkout / name).read_bytes(), places.own / name
     fresh, last = digest([content]), delivered.get(name)

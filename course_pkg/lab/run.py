@@ -14,8 +14,8 @@ from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.shell import SHELL
 from course_pkg.ros.process.supervised import SupervisedProcess
 
-# The first plug-in gives each notebook its own master and folder. The second plug-in ignores pictures. The
-# third plug-in makes the run fail if a check in a notebook did not pass.
+# The first plug-in gives each notebook its own master and folder. The second plug-in ignores pictures. With
+# the third plug-in, pytest fails if a check in a notebook did not pass.
 NBVAL_PLUGINS = (
     "course_pkg.authoring.private_notebook",
     "course_pkg.authoring.nbval_figures",
@@ -28,8 +28,8 @@ AWAITED = {signal.SIGCHLD, signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
 def run_command(command: Sequence[str], which: Which = Which.RUNNING) -> int:
     """Run `command` on a graph, end its background processes, and return its exit status.
 
-    The status is 128 + n if signal n ended the command. Raises GraphError if the graph or the command cannot
-    be started.
+    The exit status is 128 + n if signal n ended the command. Raises GraphError if the graph or the command
+    cannot be started.
     """
     if list(command) == ["bash"]:
         command = SHELL
@@ -70,7 +70,7 @@ def _signals_held_back() -> Iterator[None]:
 
 
 def _wait(process: SupervisedProcess) -> int:
-    """Wait for the end of `process`; forward each signal that `process` does not receive itself."""
+    """Wait for the end of `process`; forward each signal that the terminal does not send to `process`."""
     while (status := process.returncode) is None:
         received = signal.sigwaitinfo(AWAITED)
         # A signal that comes from the terminal has pid 0. The terminal sends the same signal to the command,

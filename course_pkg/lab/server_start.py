@@ -13,8 +13,8 @@ from urllib.parse import SplitResult, urlsplit
 from course_pkg.errors import CourseError, PortBusy
 from course_pkg.ros.process.supervised import SupervisedProcess
 
-# The server has to start within this time in s. The server usually needs 2 s. If its files are not in the
-# disk cache, it needs much longer.
+# The server has to start within this time in s. The server usually needs 2 s. If the server's files are not
+# in the disk cache, the start takes much longer.
 READY = 60.0
 LOOK = 0.01  # This is the time in s between two checks whether the server answers.
 KEPT_LINES = 12  # number of lines of the server's log in an error message
@@ -35,7 +35,7 @@ class Address(NamedTuple):
 
     @property
     def base(self) -> SplitResult:
-        """The parts of the URL."""
+        """The parts of the server's URL."""
         return urlsplit(self.url)
 
     @property
@@ -79,8 +79,8 @@ def _is_at(address: Address) -> bool:
 def start_kernel(address: Address, notebook: str) -> None:
     """Start the notebook's kernel while the page loads, so that the page finds a running kernel.
 
-    If this fails, the page starts the kernel itself. If the page cannot start the kernel either, the page
-    shows the reason.
+    If the start of the kernel fails, the page starts the kernel itself. If the page cannot start the kernel
+    either, the page shows the reason.
     """
     if not notebook:
         return

@@ -65,7 +65,7 @@ class PolledCamera:
 
 
 def picture(width: int, height: int, customers: int) -> Image:
-    """Return a picture of the shop with this number of customers; its stamp is the current time."""
+    """Return a picture of the shop with this number of customers and the current time as its time stamp."""
     image = Image(height=height, width=width, encoding="rgb8", step=3 * width)
     image.header.stamp = rospy.Time.now()
     image.header.frame_id = "camera"

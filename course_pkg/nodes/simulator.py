@@ -1,7 +1,7 @@
 """The node `simulator` publishes the mirror image of the robot, and draws pictures at the same time.
 
-For each message on `joint_states`, it immediately publishes the mirror image on `mirrored_joints`. The node
-also publishes the number of finished pictures on `~pictures`.
+For each message on `joint_states`, the node immediately publishes the mirror image on `mirrored_joints`. The
+node also publishes the number of finished pictures on `~pictures`.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ class PartProgress:
 
     @property
     def earned(self) -> float:
-        """The points of a passed part, or the points of the last check."""
+        """All points of the part if it has passed, else the points of its last check."""
         return self.possible if self.passed else self.record.points if self.record else 0
 
     @property
@@ -44,7 +44,7 @@ class PartProgress:
 
     @property
     def mark(self) -> str:
-        """The state as one character."""
+        """The state of the part as one character."""
         return "✓" if self.passed else "✗" if self.record else "·"
 
 
@@ -76,7 +76,7 @@ class ChapterProgress:
 
     @property
     def right(self) -> tuple[int, int]:
-        """The number of correct predictions, and the number of all compared predictions.
+        """The number of correct predictions, and the number of predictions that were compared with a result.
 
         Only predictions that were made before the result was known are counted.
         """
@@ -85,7 +85,7 @@ class ChapterProgress:
 
     @property
     def chosen(self) -> tuple[int, int]:
-        """The number of correct choices, and the number of all compared choices."""
+        """The number of correct choices, and the number of choices that were compared with the right ones."""
         compared = [each for each in self.choices if each.compared]
         return sum(each.fit for each in compared), sum(len(each.first) for each in compared)
 
@@ -139,7 +139,7 @@ class Progress:
 
     @property
     def chosen(self) -> tuple[int, int]:
-        """The number of correct choices, and the number of all compared choices."""
+        """The number of correct choices, and the number of choices that were compared with the right ones."""
         return _sum([each.chosen for each in self.chapters])
 
     @property

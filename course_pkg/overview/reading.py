@@ -52,7 +52,7 @@ def _present() -> Sequence[str]:
 def learning_paths() -> tuple[LearningPath, ...]:
     """Return the paths through the course.
 
-    A path with two possible last chapters is returned twice, once for each last chapter.
+    A learning path with two possible last chapters is returned twice, once for each last chapter.
     """
     every = tuple(all_chapters())
     text = PATHS.read_text("utf-8")

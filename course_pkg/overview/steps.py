@@ -21,7 +21,8 @@ class Step:
 def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
     """Return the next steps in `chapter`, or in the chapter in which the student worked last.
 
-    If this chapter is complete, each path may have a different next step. The result has at least one step.
+    If the chapter is complete, each learning path can have a different next step. The result has at least one
+    step.
     """
     by_number = {each.number: each for each in progress.chapters}
     current = by_number.get(chapter) or progress.current
@@ -45,7 +46,7 @@ def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
 def _following(
     progress: Progress, current: ChapterProgress, by_number: dict[str, ChapterProgress]
 ) -> dict[str, list[str]]:
-    """Return the numbers of the next incomplete chapters; the values are the paths that lead to them."""
+    """Return a dict from the number of each next incomplete chapter to the names of its learning paths."""
     found: dict[str, list[str]] = {}
     for path in progress.paths:
         chapters = [by_number[number] for number in path.chapters if number in by_number]

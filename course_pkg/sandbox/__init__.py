@@ -1,6 +1,6 @@
 """The sandbox in which submissions run.
 
-Each part runs in a new process. It is forked from a process that has imported all modules.
+Each part runs in a new process, forked from a process that has imported all modules.
 
     course grade                    outside the sandbox; trusts only the records of check runners
     └─ bwrap                        no network, no home, no solutions, a read-only root

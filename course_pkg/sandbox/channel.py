@@ -53,7 +53,7 @@ def receive(sock: socket.socket, timeout: float | None = None) -> tuple[Message,
 
 
 def fork(work: Callable[[], None]) -> int:
-    """Run `work` in a forked process without standard input and output, and return its process id."""
+    """Run `work` in a forked process without standard input and output, and return the id of this process."""
     if pid := os.fork():
         return pid
     try:

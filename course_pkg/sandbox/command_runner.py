@@ -1,8 +1,8 @@
 """During grading, run the commands of a check in a process that the student's kernel cannot change.
 
-When a student runs a check, the student's kernel runs these commands. During grading, a student's kernel
-could report a false result, for example that a failed build succeeded. A process in another sandbox therefore
-runs the commands and reads the part's folder.
+When a student runs a check, the student's kernel runs the commands of the check. During grading, a student's
+kernel could report a false result, for example that a failed build succeeded. A process in another sandbox
+therefore runs the commands and reads the part's folder.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def is_command(do: object, name: object) -> bool:
 class SplitChannel(Channel):
     """The check runner's channel: requests about commands and files go to the command runner.
 
-    All other requests go to the student's kernel.
+    Requests about objects in the kernel go to the student's kernel.
     """
 
     def __init__(self, client: socket.socket, commands: socket.socket) -> None:
@@ -49,7 +49,7 @@ def run_commands(sock: socket.socket, folder: str, own: str) -> None:
     """Execute the requests of the check runner until the check runner closes the channel.
 
     In a sandbox, the student's folder is read-only. `own` is a folder for the files of ROS and for temporary
-    files; other processes cannot read `own`. Without a sandbox, `own` is empty.
+    files; other processes cannot read `own`. Without a sandbox, `own` is an empty string.
     """
     if own:
         be_unreadable()

@@ -37,7 +37,8 @@ LIMITS = {
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
     supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
 }
-# If a supervisor ends all processes because of a limit, a check may still end with one of these verdicts.
+# If a supervisor ends all processes because of a limit, the check of the part can still end with one of these
+# verdicts.
 STOPPED = (Verdict.FAILED, Verdict.UNDECIDED)
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",
@@ -217,8 +218,8 @@ class Session:
                 receive(self._fork_server, END_TIMEOUT)
             except TimeoutError:
                 end([self._supervisor])
-                # The next job must not receive this message. If the message does not arrive, this worker is
-                # not used any more.
+                # Receive the message about the end of the supervisor here, because the next job must not
+                # receive it. If the message does not arrive, this worker is not used any more.
                 receive(self._fork_server, KILLED_TIMEOUT)
 
 

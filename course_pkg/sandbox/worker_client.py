@@ -25,7 +25,7 @@ SLACK = 45.0
 
 
 class SandboxWorker:
-    """A context manager that runs parts.
+    """A context manager that runs parts of submissions in a worker process.
 
     After a WorkerFailed error, the next call of `run` starts the worker again.
 

@@ -35,7 +35,7 @@ def workspace_intact(places: Places) -> bool:
 def build_workspace(places: Places, journal: Journal) -> None:
     """Build the workspace in an empty folder; raises SetupError if the build fails.
 
-    A used folder would still contain the generated modules of deleted definitions.
+    The folder of an earlier build would still contain the generated modules of deleted definitions.
     """
     source = places.workspace / "src"
     shutil.rmtree(places.workspace, ignore_errors=True)

@@ -24,7 +24,7 @@ NEEDED_BY = (("course", "course lab"), ("grade", "course grade"), ("test", "cour
 
 
 class Finding(NamedTuple):
-    """The result of one examination.
+    """The result of one examination of the set-up.
 
     `advice` says what the user can do, and is empty if there is no problem. If `optional` is true, the course
     also works with this problem.

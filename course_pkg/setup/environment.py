@@ -1,6 +1,7 @@
 """The environment variables of ROS.
 
-The set-up reads the variables once from the workspace's setup.bash, and stores the variables in a file.
+The set-up reads the variables of ROS once from the workspace's setup.bash, and stores the variables in a
+file.
 """
 
 from __future__ import annotations
@@ -15,8 +16,8 @@ from pathlib import Path
 from course_pkg.files import write_atomically
 from course_pkg.setup.places import Places
 
-# The course does not use these settings of the user. The first three settings could break the course. With
-# the last setting, Python would compile all modules of JupyterLab at every start (2 s).
+# The course does not use the user's values of these variables. The first three variables could break the
+# course. With the last variable, Python would compile all modules of JupyterLab at every start (2 s).
 REMOVED = ("PYTHONHOME", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONDONTWRITEBYTECODE")
 LOOPBACK = "devel/lib/libcourse_loopback.so"  # The set-up builds this library from ros/process/loopback.c.
 BY_SHELL = ("PWD", "OLDPWD", "SHLVL", "_")

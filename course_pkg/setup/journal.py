@@ -35,9 +35,9 @@ class Journal:
     ) -> None:
         """Run `command`, and wait until it ends.
 
-        `watch` is called twice per second with the last line of the output. The output goes to a file, so a
-        package manager can finish even if the set-up is killed. The command inherits the lock, so the next
-        set-up waits until the command has ended.
+        The function `watch` is called twice per second with the last line of the output. The output goes to a
+        file, so a package manager can finish even if the set-up is killed. The command inherits the lock, so
+        the next set-up waits until the command has ended.
 
         Raises SetupError, with the last lines of the output, if the command fails.
         """

@@ -34,7 +34,7 @@ UV_SETTINGS = {
     "UV_NO_CONFIG": "1",
     "UV_PYTHON_DOWNLOADS": "never",
     "UV_SYSTEM_CERTS": "1",
-    # pip uses the same strategy. It is safe here, because the lock file contains hashes.
+    # pip also searches all indexes for the best version. This is safe, because the lock file contains hashes.
     "UV_INDEX_STRATEGY": "unsafe-best-match",
 }
 

@@ -11,8 +11,8 @@ from course_pkg.setup.libraries import lock_file, uv_program
 from course_pkg.setup.places import Places
 
 UV = "uv==0.13.8"
-# These libraries parse rare formats in JSON schemas, and jsonschema works without them. Importing one of
-# these parsers compiles a grammar, which takes 1.3 s at each start.
+# These libraries parse rare formats in JSON schemas, and jsonschema works without them. The import of one of
+# these libraries compiles a grammar, which takes 1.3 s at each start.
 LEFT_OUT = ("arrow", "fqdn", "isoduration", "lark", "rfc3987-syntax", "uri-template", "webcolors")
 HEADER = "# Written by `./course lock` from pyproject.toml. Do not edit.\n"
 WITHOUT = f"""\

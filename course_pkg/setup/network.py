@@ -24,8 +24,8 @@ SETTINGS = (
 def network_problem(account: str | None = None) -> tuple[str, str]:
     """Return why this computer allows no private network, and what to do.
 
-    Both strings are empty if this computer allows a private network. Without `account`, the function examines
-    the user of this process. Only root can examine another account.
+    Both returned strings are empty if this computer allows a private network. Without `account`, the function
+    examines the user of this process. Only root can examine another account.
     """
     if not shutil.which("unshare") or not shutil.which("nsenter"):
         return "unshare or nsenter is missing", "As an administrator, type: apt-get install util-linux"
@@ -54,7 +54,7 @@ def network_problem(account: str | None = None) -> tuple[str, str]:
 def outgoing_problem() -> tuple[str, str]:
     """Return why a private network cannot reach other computers, and what to do.
 
-    Both strings are empty if a private network can reach other computers.
+    Both returned strings are empty if a private network can reach other computers.
     """
     if not shutil.which(FORWARDER):
         return f"{FORWARDER} is not installed", f"As an administrator, type: apt-get install {FORWARDER}"

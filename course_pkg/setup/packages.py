@@ -26,7 +26,7 @@ APT_OPTIONS = (
     "-o",
     "Dpkg::Use-Pty=0",
     "-o",
-    # With this option, dpkg is faster. The option is safe, because a failed set-up is repeated.
+    # The option --force-unsafe-io makes dpkg faster. The option is safe, because a failed set-up is repeated.
     "Dpkg::Options::=--force-unsafe-io",
     "-o",
     "Dpkg::Options::=--force-confold",
@@ -60,7 +60,8 @@ class Platform(NamedTuple):
 def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
     """Return the platform for the distribution in `os_release`, or for its base distribution.
 
-    Raises SetupError on any other system; the error message contains the commands for conda.
+    Raises SetupError if the course does not support the distribution; the error message contains the commands
+    for conda.
     """
     data = json.loads(DATA.read_text())
     release = _read_release(os_release)
@@ -111,8 +112,8 @@ def database_state() -> str:
 def install_packages(names: Sequence[str], journal: Journal, report: Callable[[str], None]) -> None:
     """Install `names`; if another package manager is running, wait until it has ended.
 
-    `report` is called with a message during the wait. Raises SetupError if the user cannot install packages,
-    or if a tool fails.
+    During the wait, the function `report` is called with a message. Raises SetupError if the user cannot
+    install packages, or if a tool fails.
     """
     root = [*become_root(names), *UNATTENDED]
 

@@ -21,8 +21,8 @@ GREEN, RED, PLAIN = "\033[32m", "\033[31m", "\033[0m"
 class Progress:
     """Shows the running steps on stderr.
 
-    If `total` is given, the line also contains the number of finished items and the estimated remaining time.
-    `unit` is the plural name of the items, such as "cells".
+    If `total` is given, the progress line also contains the number of finished items and the estimated
+    remaining time. `unit` is the plural name of the items, such as "cells".
     """
 
     def __init__(self, stream: TextIO | None = None, *, total: int = 0, unit: str = "") -> None:
@@ -38,7 +38,7 @@ class Progress:
 
     @contextmanager
     def step(self, title: str) -> Iterator[None]:
-        """Show the step `title` and its duration during the block, and its result after the block."""
+        """Show the step `title` and its duration during the `with` block, and its result after the block."""
         started = time.monotonic()
         with self._lock:
             self._running[title] = started
@@ -72,7 +72,7 @@ class Progress:
     def advance(self, count: int = 1, *, kept: bool = False) -> None:
         """Add `count` to the finished items.
 
-        If `kept` is true, an earlier run finished these items, so they take no time.
+        If `kept` is true, an earlier run of the program has finished the items, so they take no time.
         """
         with self._lock:
             self._done += count

@@ -46,7 +46,7 @@ def digest(parts: Iterable[str | bytes]) -> str:
 def locked(path: Path, on_wait: Callable[[], None]) -> Iterator[int]:
     """Acquire the lock at `path`, and yield its file descriptor.
 
-    If another process has the lock, `on_wait` is called.
+    If another process has the lock, the function `on_wait` is called.
     """
     with path.open("w") as file:
         try:

@@ -24,7 +24,8 @@ EXTRAS = {"course": "", "hub": " of the hub", "test": " of the tests"}
 class Step(NamedTuple):
     """One step of the set-up.
 
-    `is_done` runs at every start, so it must be fast. `makes` is the folder that the step creates.
+    The function `is_done` runs at every start of `course`, so this function must be fast. `makes` is the
+    folder that the step creates.
     """
 
     title: str
@@ -70,7 +71,7 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
 def steps_of(
     places: Places, *, grade: bool = False, hub: bool = False, test: bool = False
 ) -> list[list[Step]]:
-    """Return the steps in stages; all steps of one stage can run at the same time."""
+    """Return lists of steps; the lists run in order, and the steps of one list can run at the same time."""
     stamps = Stamps(places.stamps)
     library_step = _library_step(places, stamps, "test" if test else "hub" if hub else "course")
     catkin = _workspace_step(places, stamps)
@@ -104,7 +105,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        # The stamp is written here so that the next start does not have to call dpkg.
+        # The stamp is written here so that the next start of `course` does not have to call dpkg.
         with suppress(OSError):
             stamps.write(name, state)
         return True
@@ -117,7 +118,8 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
     def is_done() -> bool:
-        # Each lock file contains all libraries of the earlier lock files, so a later stamp is sufficient.
+        # Each lock file contains all libraries of the earlier lock files, so the stamp of a later lock file
+        # is sufficient.
         sufficient = list(EXTRAS)[list(EXTRAS).index(extra) :]
         made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in sufficient)
         return libraries.environment_works(places) and any(made)
@@ -148,7 +150,7 @@ def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> N
         with progress.step(step.title):
             step.make(journal, progress)
 
-    # The import takes 5 ms, and most starts do not need it.
+    # The import takes 5 ms, and is not needed if all steps are finished.
     from concurrent.futures import ThreadPoolExecutor
 
     with progress.painting(), ThreadPoolExecutor(max_workers=2) as pool:

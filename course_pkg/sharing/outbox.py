@@ -50,7 +50,7 @@ class Outbox:
     def first(self, most: int) -> list[dict[str, object]]:
         """Return the oldest results; `most` is their maximum number.
 
-        Also delete files that are too old or contain no result.
+        The method also deletes files that are too old or contain no result.
 
         Raises OSError if the folder cannot be read.
         """

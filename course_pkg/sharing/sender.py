@@ -1,7 +1,7 @@
 """Sends the results in the outbox to the class service, from a thread of the Jupyter server.
 
-The thread reads the outbox every 0.2 s. It deletes a result only after the service has stored it. If the
-service does not answer, the thread tries again after pauses that grow from 0.5 s to 60 s.
+The thread reads the outbox every 0.2 s. The thread deletes a result only after the service has stored this
+result. If the service does not answer, the thread tries again after pauses that grow from 0.5 s to 60 s.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from course_pkg.sharing.notice import ADDRESS, address, keep_about
 from course_pkg.sharing.outbox import Outbox
 
 INTERVAL = 0.2  # time in s between two reads of the outbox
-# time in s before the next attempt, after the first, the second, … failure
+# pauses in s before the next attempt: after the first failure, after the second failure, …
 PAUSES = (0.5, 1.0, 2.0, 4.0, 8.0, 15.0, 30.0, 60.0)
 TIMEOUT = 10.0  # time limit in s for the connection, and for each wait for data
 BATCH = 50  # maximum number of results in one request
@@ -33,7 +33,8 @@ class NotAccepted(Exception):
 def start_sender(warn: Callable[[str], object]) -> threading.Thread | None:
     """Start the thread that sends results; return None if sharing is off.
 
-    `warn` is called with a message when the sending fails for the first time, and when the reason changes.
+    The function `warn` is called with a message when the sending fails for the first time, and when the
+    reason of the failure changes.
     """
     if not address():
         return None
@@ -85,7 +86,7 @@ class Sender:
             self._outbox.remove([str(each["id"]) for each in results if each["id"] in done])
 
     def _ask(self, method: str, path: str, data: Mapping[str, object] | None = None) -> dict[str, object]:
-        """Send a request to the service, without a proxy and without following redirects."""
+        """Send a request to the class service; use no HTTP proxy, and follow no redirects."""
         parts = urlsplit(self._url)
         if parts.scheme not in ("http", "https") or not parts.hostname:
             raise NotAccepted(f"{ADDRESS} is not an address such as http://127.0.0.1:8900")

@@ -1,4 +1,4 @@
-"""The counter of a shop, with the times at which each customer comes and leaves; without ROS."""
+"""The counter of a shop, and the times at which each customer comes and leaves; independent of ROS."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compute pictures of the shop: a colour picture, and the frames of a small grey camera; without ROS."""
+"""Compute a colour picture of the shop, and the frames of a small grey camera; independent of ROS."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
 
 
 def _figure_at(y: float, coat: Colour) -> tuple[float, Colour]:
-    """Return the half width, and the colour, of a customer in the row at `y`.
+    """Return half the width of a customer in the row at `y`, and the customer's colour there.
 
     The width is a fraction of the picture's height.
     """
@@ -105,7 +105,7 @@ def _frame_row(row: int, customers: int) -> bytes:
 
 
 def _figures(y: float, customers: int) -> set[int]:
-    """Return the columns of all customers at `y`, which is 0 at the top and 1 at the bottom."""
+    """Return the pixel columns that customers cover at `y`, which is 0 at the top and 1 at the bottom."""
     head = HEAD**2 - (y - 0.3) ** 2
     half = round(HEIGHT * head**0.5) if head > 0 else round(HEIGHT * SHOULDERS) if y >= 0.46 else -1
     middles = [WIDTH * number // (customers + 1) for number in range(1, customers + 1)]

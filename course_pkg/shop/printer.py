@@ -1,4 +1,4 @@
-"""The printer of a cash register; without ROS."""
+"""The printer of a cash register; independent of ROS."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Printer:
         self._busy = threading.Lock()
 
     def print(self, text: str) -> None:
-        """Print a line; this takes 10 ms. Raises PrinterFailed if it cannot print the line."""
+        """Print a line; this takes 10 ms. Raises PrinterFailed if the printer cannot print the line."""
         if not self._busy.acquire(blocking=False):
             raise PrinterFailed("paper jam: two lines at once")
         try:

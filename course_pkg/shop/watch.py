@@ -1,4 +1,4 @@
-"""The customers that a camera sees at a counter, and functions that wait for a customer; without ROS.
+"""The customers that a camera sees at a counter, and functions that wait for one; independent of ROS.
 
 A Watch receives messages with the customers' numbers. An Eye receives frames, which are pictures of the
 counter.
@@ -16,7 +16,7 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-# While a thread waits, it checks at least once in this time (s) when the camera sent its last message.
+# A waiting thread checks at least once in this time (s) whether the camera is silent.
 POLL = 0.25
 # If an Eye receives no valid frame for this many s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0

@@ -36,9 +36,9 @@ LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
 
 
 def prefix(chapter: Chapter) -> str:
-    """Return the prefix of the anchors of a chapter.
+    """Return the text with which all anchors (HTML ids) of a chapter begin.
 
-    In the book, all chapters are on one page, so anchors of different chapters need different prefixes.
+    All chapters of the book are on one page, so anchors of different chapters need different prefixes.
     """
     return f"c{chapter.number}-"
 

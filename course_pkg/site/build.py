@@ -1,4 +1,4 @@
-"""Builds the site: a page for each chapter, a landing page, a glossary, and the files that they load."""
+"""Builds the site: a page for each chapter, a landing page, a glossary, and all files that pages load."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def _sections(books: Sequence[PageSource]) -> Iterator[Section]:
 
 
 def _bodies(books: Sequence[PageSource], exporter: Exporter) -> list[tuple[Chapter, Body]]:
-    """Return the chapters for the book; the anchors of each chapter have a different prefix."""
+    """Return the chapters for the page with all chapters; each chapter has a different anchor prefix."""
     return [
         (each.chapter, exporter.body(each.notebook, prefix(each.chapter), each.source.parent))
         for each in books
@@ -137,9 +137,9 @@ class Settings(NamedTuple):
 
     `out` is the output folder. If `student` is True, the pages show the students' notebooks; otherwise, they
     show the solutions. `chapters` lists the chapters that run again if they have changed. For all other
-    chapters, the site shows the last run. If `execute` is False, no chapter runs again. `binder` is the
-    address that opens the repository in Binder, without the query. If `book` is True, the site also has a
-    page with all chapters.
+    chapters, the site shows the outputs of the last run. If `execute` is False, no chapter runs again.
+    `binder` is the address that opens the repository in Binder, without the query. If `book` is True, the
+    site also has a page with all chapters.
     """
 
     out: Path
@@ -153,8 +153,8 @@ class Settings(NamedTuple):
 class Folder:
     """The folder of a site during writing; it is a context manager.
 
-    If the block ends without an exception, the files of an earlier site are removed, except those that the
-    block has written again.
+    If the `with` block ends without an exception, the files of an earlier site are removed, except those that
+    the block has written again.
     """
 
     def __init__(self, path: Path) -> None:

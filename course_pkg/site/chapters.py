@@ -16,7 +16,7 @@ MINUTES = re.compile(r"(?P<minutes>\d+) minutes")
 class Chapter(NamedTuple):
     """A chapter in the syllabus.
 
-    `lead`, `will` and `need` are Markdown. `minutes` is 0 if the notebook does not contain a time.
+    The texts `lead`, `will` and `need` are Markdown. `minutes` is 0 if the notebook does not contain a time.
     """
 
     name: str  # `name` is the name of the chapter's files without the extension, such as 05_write_a_server.
@@ -39,7 +39,7 @@ class Chapter(NamedTuple):
 
     @property
     def full_title(self) -> str:
-        """The chapter's number and title, as in a link."""
+        """The chapter's number and title, as the text of a link."""
         return f"{self.number} {self.title}"
 
 

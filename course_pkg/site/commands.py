@@ -1,4 +1,4 @@
-"""`course site`: writes the site, checks it, prints the book, and lists the problems."""
+"""`course site`: writes the site, checks it, prints the page with all chapters, and lists the problems."""
 
 from __future__ import annotations
 

@@ -144,7 +144,7 @@ def _has_a_form(output: Output) -> bool:
 
 
 def packed(states: Sequence[Mapping[str, Plain]]) -> str:
-    """Return the states of a page's panels, in their order.
+    """Return the states of a page's panels, in the order of the panels.
 
     The result is JSON, compressed with zlib, in base64.
     """
@@ -180,15 +180,15 @@ def description(svg: str) -> str:
 def terminal(text: str) -> str:
     """Return the output of a terminal as HTML.
 
-    Colours do not change. A carriage return overwrites the line, as in a terminal. All other control codes
-    are removed.
+    The HTML shows the colours of the output. A carriage return overwrites the line, as in a terminal. All
+    other control codes are removed.
     """
     lines = (line.rpartition("\r")[2] for line in text.replace("\r\n", "\n").split("\n"))
     return str(ansi2html(CONTROL.sub("", "\n".join(lines)))).strip("\n")
 
 
 class Sanitizer:
-    """Removes everything from HTML except text, its structure, links, and pictures with embedded data."""
+    """Removes everything from HTML except text and its structure, links, and pictures with embedded data."""
 
     def __init__(self) -> None:
         self._cleaner = Cleaner(

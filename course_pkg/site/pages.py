@@ -53,7 +53,7 @@ class Choice(NamedTuple):
 class LearningPath(NamedTuple):
     """A selection of chapters that a reader can understand without any other chapter.
 
-    A path with two possible last chapters has two choices.
+    A path with two possible last chapters has two objects Choice.
     """
 
     name: str
@@ -86,7 +86,7 @@ class Renderer:
         self._assets = assets
 
     def part(self, template: str, **values: object) -> Markup:
-        """Return the template, filled with `values`; a str is escaped, but Markup is not escaped."""
+        """Return the template, filled with `values`; a value is escaped, unless its type is Markup."""
         return Markup(self._environment.get_template(template).render(**self._frame, **values))  # noqa: S704
 
     def page(self, page: Page) -> str:

@@ -119,7 +119,7 @@ def _contents(files: Iterable[Path]) -> Iterator[str | bytes]:
 def _code(notebook: Notebook) -> str:
     """Return a digest of the code cells.
 
-    A change of prose does not change the digest, so it causes no new run.
+    The digest does not depend on the prose, so a change of prose causes no new run.
     """
     return digest(cell["source"] for cell in code_cells(notebook))
 

@@ -1,6 +1,6 @@
 """Joins the front ends of all panels into one classic script.
 
-A page in a local folder cannot load modules.
+A page in a local folder cannot load JavaScript modules.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ JSDOC = re.compile(r"^[ \t]*/\*\*(?:[^*]|\*(?!/))*\*/[ \t]*\n", re.MULTILINE)
 def panels_script(folder: Path = PANELS) -> str:
     """Return a script that sets `coursePanels`: an object that maps the name of each panel to `{ render }`.
 
-    Each module becomes the body of a function. The function of a module comes after the functions of all
-    modules that it imports.
+    Each JavaScript module becomes the body of a function. The function of a module comes after the functions
+    of all modules that it imports.
     """
     modules = _Modules(folder)
     found = _fronts(folder)

@@ -34,7 +34,7 @@ class Canvas:
         return red, green, blue
 
     def line(self, start: Point, end: Point, colour: Colour, width: int) -> None:
-        """Draw a straight line with this width in px; both ends extend by half the width."""
+        """Draw a straight line with this width in px; at both ends, it is longer by half the width."""
         half = max(width, 1) / 2
         reach = half * math.sqrt(2)
         top = max(math.floor(min(start[1], end[1]) - reach), 0)

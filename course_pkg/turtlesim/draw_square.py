@@ -25,7 +25,7 @@ SLOW = 4.0
 
 @dataclass(frozen=True)
 class Walker:
-    """The pose at the beginning of the current side or corner; `turning` is true at a corner."""
+    """The pose at the beginning of the square's current side or corner; `turning` is true at a corner."""
 
     x: float
     y: float
@@ -43,7 +43,7 @@ class Walker:
         return _limited(SIDE - math.hypot(x - self.x, y - self.y), SPEED), 0.0
 
     def after(self, x: float, y: float) -> Walker:
-        """Return the walker for the next side or corner, which begins at (x, y)."""
+        """Return the Walker for the next side or corner, which begins at (x, y)."""
         if self.turning:
             # The next side starts from the planned angle, because small errors of the turtle's real angle
             # would add up.

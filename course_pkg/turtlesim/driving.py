@@ -52,13 +52,14 @@ def to_twist(velocity: tuple[float, float]) -> Twist:
 def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> None:
     """Publish the driver's velocity `driver.rate` times per second, until `over()` is true.
 
-    The rate may change while this function runs.
+    The rate can change while this function runs.
     """
     last = -float("inf")
     while not over():
         now, period = time.monotonic(), 1.0 / driver.rate
         if now - last >= period:
             publish(to_twist(driver.velocity()))
-            # If this thread was delayed, it does not publish the late velocities.
+            # After a delay of this thread, skip the velocities that should have been published in the
+            # meantime.
             last = max(last + period, now - SLICE)
         time.sleep(min(max(last + period - time.monotonic(), 0.0), SLICE))

@@ -23,7 +23,8 @@ from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
 FIRST = "turtle1"  # This turtle exists after a reset.
-# Requests take at most this time in s in one tick. So even many requests delay a pose by at most this time.
+# In one tick, the simulator handles requests for at most this time in s. Therefore, even many requests delay
+# a pose by at most this time.
 BUDGET = 0.008
 # Ticks that are more than this time in s late are skipped, for example after the machine was suspended.
 MAX_DELAY = 0.25
@@ -105,7 +106,8 @@ class Simulator:
                 rospy.logerr(str(error))
                 raise Refused("") from error
             added = self._in_next_tick(lambda: self._world.add(turtle))
-            # While the job waits for the next tick, this thread registers the interface at the master.
+            # While the job waits for the next tick, this thread registers the turtle's topics and services at
+            # the master.
             interface = TurtleInterface(turtle, self._world.canvas, self.in_tick)
             added.result()
             self._announce(turtle)
@@ -134,8 +136,8 @@ class Simulator:
         with self._changes:
             removed = self._remove_others()
             done = self._in_next_tick(lambda: self._reset_world(background))
-            # Closing an interface takes six calls to the master. This thread makes the calls while the job
-            # waits for the next tick.
+            # Closing the topics and services of a turtle takes six calls to the master. This thread makes the
+            # calls while the job waits for the next tick.
             for interface in removed:
                 interface.close()
             done.result()
@@ -151,13 +153,13 @@ class Simulator:
         return removed
 
     def _remove_others(self) -> list[TurtleInterface]:
-        """Remove and return all interfaces except the interface of turtle1."""
+        """Remove and return the topics and services of all turtles except turtle1."""
         removed = [each for name, each in self._interfaces.items() if name != FIRST]
         self._interfaces = {name: each for name, each in self._interfaces.items() if name == FIRST}
         return removed
 
     def _reset_world(self, background: Colour) -> None:
-        """Reset the world, and connect the interfaces to the new turtles."""
+        """Reset the world, and connect the topics and services to the new turtles."""
         self._world.reset(background)
         for name, interface in self._interfaces.items():
             interface.turtle = self._world.turtles[name]

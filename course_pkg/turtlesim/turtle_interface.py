@@ -1,11 +1,11 @@
 """The topics and services of a turtle.
 
-With a queue, rospy starts a thread for each subscriber of a topic. This thread wakes up for each message, and
-1,500 messages per second would take most of the CPU time. Without a queue, rospy writes each message
+If a publisher has a queue, rospy starts a thread for each subscriber. This thread wakes up for each message,
+and 1,500 messages per second would take most of the CPU time. Without a queue, rospy writes each message
 directly. The publisher then has to wait if a subscriber does not read.
 
-A turtle therefore writes a message directly if the connection's buffer has space. If the buffer has no space,
-the turtle drops the message.
+The publishers of a turtle use no queue: they write a message directly if the connection's buffer has space.
+If the buffer has no space, they drop the message.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ InTick = Callable[[Callable[[], None]], None]
 class TurtleInterface:
     """The topics and services of one turtle, until close() is called.
 
-    `in_tick` runs a function between two ticks, and waits until the function has ended.
+    The function `in_tick` runs another function between two ticks, and waits until that function has ended.
     """
 
     def __init__(self, turtle: Turtle, canvas: Canvas, in_tick: InTick) -> None:
@@ -65,7 +65,7 @@ class TurtleInterface:
         ]
 
     def publish(self) -> None:
-        """Publish the turtle's pose and velocity, and the colour under it."""
+        """Publish the turtle's pose and velocity, and the colour under the turtle."""
         turtle, velocity = self.turtle, self.turtle.velocity
         try:
             self._pose.publish(Pose(turtle.x, turtle.y, turtle.theta, turtle.speed, velocity.turn))

@@ -67,7 +67,7 @@ def _command(code: str) -> list[tuple[int, int]]:
 def _single_keys(terminal: int) -> Iterator[None]:
     """Make the terminal send each key immediately and without echo.
 
-    Restore the terminal's settings after the block.
+    Restore the terminal's settings after the `with` block.
     """
     before = termios.tcgetattr(terminal)
     try:

@@ -1,4 +1,4 @@
-"""The world of the turtles: their positions, their motion, and the lines of their pens; without ROS.
+"""The world of the turtles: their positions, their motion, and the lines of their pens; independent of ROS.
 
 Lengths are in metres. The world is 11.088889 m wide and high, and its origin is at the bottom left. Angles
 are in radians, counter-clockwise from the x-axis. One tick is 16 ms.
@@ -40,7 +40,7 @@ class Pen:
 
 @dataclass(frozen=True)
 class Velocity:
-    """A velocity command: m/s forwards and sideways, and rad/s.
+    """A velocity command: forwards and sideways in m/s, and the rotation in rad/s.
 
     `since` is the time in s at which the command arrived, on the same clock as in World.tick().
     """

@@ -30,7 +30,7 @@ def rosservice_line(service: str, kind: ServiceType, values: Mapping[str, Plain]
 def rospy_line(service: str, kind: ServiceType, values: Mapping[str, Plain]) -> str:
     """Return the lines of Python that call `service` with these values, in a node or a notebook.
 
-    If the type is not built, the lines generate it from its definition. Raises FieldError.
+    If the type is not built, the lines generate the type from its definition. Raises FieldError.
     """
     plain = kind.request.check(values)
     short = kind.name.partition("/")[2]
@@ -72,7 +72,7 @@ def publisher_lines(
 ) -> str:
     """Return the lines of Python that publish these values in a node, once or `rate` times per second.
 
-    If the type is not built, the lines generate it from its definition. Raises FieldError.
+    If the type is not built, the lines generate the type from its definition. Raises FieldError.
     """
     plain = kind.check(values)
     short = kind.name.partition("/")[2]

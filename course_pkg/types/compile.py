@@ -31,7 +31,7 @@ from course_pkg.types.search_path import (
     split_type_name,
 )
 
-# genpy's generator stores its state in global variables.
+# Only one thread may use genpy's generator, because the generator stores its state in global variables.
 _GENERATOR = Lock()
 _IMPORT = re.compile(r"import \w+\.msg")
 

@@ -1,7 +1,7 @@
 """The lines of a .srv or .msg text: the declaration in each line, and its comments.
 
-The rules are from genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The text must be valid; the module `diagnosis`
-explains the mistakes in an invalid text.
+The rules for a definition are from genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The text must be valid; the
+module `diagnosis` explains the mistakes in an invalid text.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def lines(text: str) -> Iterator[Line]:
 
 
 def with_unix_line_ends(text: str) -> str:
-    """Return the text with the line endings of Linux. The build reads the same text with Python's open()."""
+    """Return the text with the line endings of Linux. In a build, Python's open() makes the same change."""
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 

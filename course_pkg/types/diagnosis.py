@@ -42,7 +42,7 @@ _FROM_ELSEWHERE = {
 }
 _TYPE = re.compile(r"([A-Za-z]\w*(?:/[A-Za-z]\w*)?)((?:\[\d*\])?)", re.ASCII)
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
-# Every class that genpy generates has these methods.
+# Every class that genpy generates has these methods, so no field can have such a name.
 _METHODS = frozenset({"serialize", "deserialize", "serialize_numpy", "deserialize_numpy"})
 
 

@@ -88,7 +88,7 @@ class MessageType:
     def built(self) -> bool:
         """Whether Python can import the class from its package.
 
-        If the value is False, the class was generated from the definition.
+        If `built` is False, the class was generated from the definition.
         """
         return not hasattr(self.cls, "_dependencies")
 
@@ -118,7 +118,7 @@ class ServiceType:
 def service_type(type_or_name: str | ServiceType | ServiceClass) -> ServiceType:
     """Return the service type for a full name (`std_srvs/SetBool`) or for a generated class.
 
-    If a type on ROS_PACKAGE_PATH is not built, its class is generated from the definition. Raises
+    If a type on ROS_PACKAGE_PATH is not built, the class of the type is generated from the definition. Raises
     UnknownType, or BrokenDefinition for a definition that ROS does not accept.
     """
     if isinstance(type_or_name, ServiceType):
@@ -177,7 +177,7 @@ def compile_service(name: str, text: str) -> ServiceType:
 def compile_message(name: str, text: str) -> MessageType:
     """Return the message type called `name` that is defined by the text of a .msg file.
 
-    The mistakes and the errors are the same as for `compile_service`.
+    This function refuses the same mistakes, and raises the same errors, as `compile_service`.
     """
     return _message(compiled_message(name, text, f"{name}.msg", strict=True))
 

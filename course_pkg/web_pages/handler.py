@@ -60,7 +60,7 @@ class PageHandler(RequestHandler):
         self.finish(json.dumps(data))
 
     def send_asset(self, path: Path) -> None:
-        """Send the file `path`: a script, or a style sheet that follows the common style sheet."""
+        """Send the script `path`, or the common style sheet followed by the style sheet `path`."""
         sheet = path.suffix == ".css"
         self.set_header("Content-Type", f"text/{'css' if sheet else 'javascript'}; charset=utf-8")
         self.finish(style_sheet(path) if sheet else path.read_bytes())

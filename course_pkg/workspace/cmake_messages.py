@@ -1,8 +1,8 @@
 """The messages of CMake in the output of a build, their meaning, and the commands in a CMakeLists.txt.
 
 CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error;
-the student's line is in the call stack below the message. A row of a table is (pattern, file, problem,
-remedy). If `file` is empty, the fault is in the file that the message names.
+the student's line is in the call stack below the message. Each row of a table of messages is (pattern, file,
+problem, remedy). If `file` is empty, the fault is in the file that the message names.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def _message(head: re.Match[str], below: list[str]) -> Message:
 
 
 def _indented(lines: list[str]) -> Iterator[str]:
-    """Yield the lines of a message: indented lines, empty lines between them, and its call stack."""
+    """Yield the lines of a message: indented lines, empty lines between them, and the call stack."""
     for line in lines:
         if line.strip() and not line.startswith("  ") and line.strip() != _STACK:
             return
@@ -87,7 +87,7 @@ def cmake_commands(text: str) -> Iterator[Command]:
 def unknown_command(name: str, message: Message) -> Fault:
     """Return the fault for an unknown command.
 
-    The package of the command was not found, or the name is misspelt.
+    The package that defines the command was not found, or the command's name is misspelt.
     """
     if name.lower() in GENERATION:
         problem = (

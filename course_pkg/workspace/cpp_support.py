@@ -8,7 +8,7 @@ from pathlib import Path
 
 HEADER = "include/ros/ros.h"
 LIBRARIES = ("roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "boost_thread")
-# Without this option, a handler without a return statement can be built, but may crash.
+# Without this option, the compiler accepts a handler without a return statement, which may crash.
 WARNINGS = ("-Werror=return-type",)
 
 

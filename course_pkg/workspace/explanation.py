@@ -1,8 +1,9 @@
 """Explain the errors of catkin_make, rosrun and other tools: the fault in a package, and its remedy.
 
-A pattern matches words that are probably the same in every release of the tool. The messages come from catkin
-0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The first row that matches is used. In a row's
-texts, a name in braces is replaced by what the group with this name in the pattern has matched.
+Tables contain patterns of error messages. A pattern matches words that are probably the same in every release
+of the tool. The messages come from catkin 0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The
+first row that matches is used. In a row's texts, a name in braces is replaced by the text that the regex
+group of this name has matched.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ _PATH = re.compile(r"/\S*/src/(?=[\w.+-]+/)")
 def explain(output: str) -> Fault | None:
     """Return the first fault in the output of a tool, or None if the output contains no known error.
 
-    If no row matches an error of CMake, the fault contains CMake's error message and its line.
+    If no pattern matches an error of CMake, the fault contains CMake's error message and its line.
     """
     text = _COLOUR.sub("", output).replace("\r\n", "\n")
     return next(_faults(text), None)

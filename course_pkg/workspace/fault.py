@@ -57,7 +57,7 @@ def manifest_tags(text: str) -> Iterator[Tag]:
 def dependencies(text: str, purpose: str) -> set[str]:
     """Return the dependencies in the `text` of a package.xml; `purpose` is "build" or "run".
 
-    Dependencies with a condition are ignored. `text` has to be valid for catkin.
+    Dependencies with the attribute `condition` are ignored. `text` has to be valid for catkin.
     """
     # The import takes 50 ms, so it is inside the function.
     from catkin_pkg.package import parse_package_string

@@ -49,7 +49,7 @@ def own_workspace() -> Path:
 def make_own_workspace() -> Path:
     """Return the student's workspace; create its folder `src` if it is missing.
 
-    Raises SetupError if the tools of ROS do not work in this folder; in this case, no file is changed.
+    Raises SetupError if the tools of ROS do not work in the workspace; in this case, no file is changed.
     """
     root = own_workspace()
     problem = _unfit(root)
@@ -98,9 +98,9 @@ class OwnPackages:
     def refresh(self) -> str:
         """Make all built packages available to this process and to its child processes.
 
-        The folders are at the end of each search path, so a student's package cannot replace a package of the
-        course. The method returns a message if the definition of an imported type has changed, or if a
-        package.xml cannot be read; else "".
+        The packages' folders are added at the end of each search path, so a student's package cannot replace
+        a package of the course. The method returns a message if the definition of an imported type has
+        changed, or if a package.xml cannot be read; else "".
         """
         for name, folders in self._paths.items():
             _append(name, folders)

@@ -1,6 +1,6 @@
 """The errors of catkin, genmsg and the tools of ROS about a package.
 
-The rows have the same columns as in cmake_messages.
+The rows of the tables have the same columns as in the module cmake_messages.
 """
 
 from __future__ import annotations

@@ -38,19 +38,19 @@ def test_a_password_is_accepted_once(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["Anna", "anna berg", "../anna", "-anna", "1anna", "a" * 33, "anna\n", ""])
 def test_unusual_names_are_refused(name: str) -> None:
-    """The error message contains the refused name."""
+    """A name that is not valid for an account leads to an error message."""
     with pytest.raises(HubError, match="not names of accounts"):
         accounts.check_names(["ben", name])
 
 
 def test_an_account_of_the_system_is_refused() -> None:
-    """A roster cannot contain an account such as daemon."""
+    """A roster cannot contain a system account such as `daemon`."""
     with pytest.raises(HubError, match="account of the system"):
         accounts.make_accounts(["daemon"])
 
 
 def test_a_missing_or_foreign_home_is_a_problem(tmp_path: Path) -> None:
-    """The returned problem contains the reason why the home folder cannot be used."""
+    """The returned text contains the reason why the home folder cannot be used."""
     assert "does not exist" in accounts.home_problem(tmp_path / "none", os.getuid())
     assert "another user" in accounts.home_problem(tmp_path, os.getuid() + 1)
     assert accounts.home_problem(tmp_path, os.getuid()) == ""

@@ -110,6 +110,25 @@ def test_files_of_the_instructor_cannot_be_read(worker: SandboxWorker) -> None:
     assert words == "RuntimeError: seen: []"
 
 
+def test_the_programs_of_the_course_are_hidden(worker: SandboxWorker) -> None:
+    """A submission cannot import a program of the course, except for the programs that the part runs."""
+    source = """
+import importlib.util
+found = []
+for name in ("course_pkg.nodes.server", "course_pkg.nodes.simulator", "course_pkg.turtlesim.driving"):
+    found.append(importlib.util.find_spec(name) is not None)
+raise RuntimeError(found)
+"""
+    seen = {}
+    for check in ("01.1", "05.1"):
+        job = PartJob(check, "", (source,), "", 1, 1.0, 5.0, 10.0, hidden=find(check).hidden)
+        seen[check] = [words["error"] for words in worker.run(job).messages if words["cell"] == "answer 1"]
+    assert seen == {
+        "01.1": ["RuntimeError: [True, False, False]"],
+        "05.1": ["RuntimeError: [False, False, False]"],
+    }
+
+
 def test_no_check_is_in_memory(worker: SandboxWorker) -> None:
     """The memory of a student's process contains no check and no hint."""
     hint = next(answer.hint for answer in every_answer() if answer.check == "05.1" and not answer.right)

@@ -53,7 +53,7 @@ def write_autograder(options: Options) -> int:
     refuse_inside(out, checkout)
     chapters = tuple(chosen_chapters("", options.chapters))
     settings = Settings(chapters, options.minutes, options.late_per_day, options.late_max_days)
-    if settings.policy:  # The property raises GradingError if a number is out of range.
+    if settings.policy:  # Reading this property raises GradingError if a number is out of range.
         late_policy(None, options.late_per_day, options.late_max_days, ["the deadline of Gradescope"])
     files = {"settings.json": File(settings.as_json().encode())}
     for name in ("setup.sh", "run_autograder"):

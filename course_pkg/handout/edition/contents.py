@@ -2,7 +2,7 @@
 
 The edition does not contain solutions, tests, example answers, grading fixtures, private checks, or the
 site's recordings. The edition contains the checks, because `check()` runs on the student's computer. The
-checks are packed, because their source contains answers.
+source code of the checks is packed, because it contains answers.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ class ReleaseFolder:
     def __init__(self, path: Path) -> None:
         """Read the list of files from an earlier release.
 
-        Raises HandoutError if the folder contains files, but no list of an earlier release.
+        Raises HandoutError if the folder contains files, but no list of the files of an earlier release.
         """
         self.path = path
         self._before = self._released_before()
@@ -51,12 +51,12 @@ class ReleaseFolder:
         """Write `files`, remove all other files of an earlier release, and commit the changes.
 
         Raises HandoutError if a file with uncommitted changes would be overwritten, or if the folder cannot
-        be written. In the first case, nothing is changed.
+        be written. If a file would be overwritten, nothing is changed.
         """
         self._refuse_changes_by_hand(files)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            # The list is written first, so that a user can repeat an interrupted release.
+            # The list of files is written first, so that a user can repeat an interrupted release.
             self._put(RECORD, files[RECORD])
             changed = [name for name, file in files.items() if self._put(name, file)]
             removed = [name for name in self._before if name not in files and self._remove(name)]
@@ -122,7 +122,7 @@ class ReleaseFolder:
             return False
         path.unlink()
         for folder in path.relative_to(self.path).parents[:-1]:
-            with suppress(OSError):  # The folder contains other files.
+            with suppress(OSError):  # An OSError means that the folder is not empty.
                 (self.path / folder).rmdir()
         return True
 
@@ -147,7 +147,7 @@ def _stays_inside(name: str) -> bool:
 def refuse_inside(path: Path, checkout: Path) -> None:
     """Raise HandoutError if `path` is in the checkout.
 
-    Otherwise, the next release would contain this release.
+    A release in the checkout would become part of the next release.
     """
     if path.resolve().is_relative_to(checkout.resolve()):
         raise HandoutError(f"{path} is inside the course's own folder. Give a folder outside {checkout}.")

@@ -1,6 +1,6 @@
 """Runs git in a folder.
 
-The user's hooks do not run. The variables that another git command has set for a hook are removed.
+The user's git hooks do not run. The variables that another git command has set for a hook are removed.
 """
 
 from __future__ import annotations

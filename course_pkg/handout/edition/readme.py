@@ -17,8 +17,9 @@ SOME = " This edition has {}."
 def student_readme(text: str, released: Sequence[str], known: Sequence[str], hidden: Collection[str]) -> str:
     """Return the students' README, made from the course's README `text`.
 
-    `known` contains all chapters. The README lists only the chapters in `released`, and no commands in
-    `hidden`. Everything between the comments `<!-- instructors -->` and `<!-- end -->` is removed.
+    `known` contains all chapters of the course. The README lists only the chapters in `released`, and no
+    commands in `hidden`. Everything between the comments `<!-- instructors -->` and `<!-- end -->` is
+    removed.
     """
     kept = INSTRUCTORS.sub("", text)
     some = tuple(released) != tuple(known)
@@ -33,7 +34,7 @@ def student_readme(text: str, released: Sequence[str], known: Sequence[str], hid
 def unlinked(text: str, released: Collection[str]) -> str:
     """Return Markdown without links to the notebooks of unreleased chapters.
 
-    The texts of these links do not change.
+    Only the text of such a link remains.
     """
     return LINK.sub(lambda link: link[0] if link[2] in released else link[1], text)
 

@@ -19,7 +19,7 @@ TIME = (2000, 1, 1, 0, 0, 0)
 def zip_path(folder: Path) -> Path:
     """Return the path of the zip, which is next to the folder of the edition.
 
-    Raises HandoutError if this file exists and was not written by a release.
+    Raises HandoutError if the zip exists and was not written by a release.
     """
     path = folder.with_name(f"{folder.name}.zip")
     if path.exists() and not _is_ours(path):

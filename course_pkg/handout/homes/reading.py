@@ -1,9 +1,9 @@
 """Reads a student's work in a child process that has only the rights of this student.
 
-If root runs `course collect`, the child gives up all rights of root before it reads the home folder. The
-child can read only files that the student can read. Therefore, even if a student creates a link, or replaces
-a folder during the reading, the child cannot read other users' private files. If another user runs `course
-collect`, the child has the rights of that user.
+If root runs `course collect`, the child process gives up all rights of root before it reads the home folder.
+Then the child process can read only files that the student can read. Therefore, even if a student creates a
+link, or replaces a folder during the reading, the child cannot read other users' private files. If a user
+without root's rights runs `course collect`, the child has the rights of that user.
 """
 
 from __future__ import annotations
@@ -39,7 +39,8 @@ def read_home(
     The second result contains a sentence about each file or folder that could not be collected.
 
     The keys of `notebooks` are the file names of the notebooks, and the values are the chapters. `asked`
-    contains the names of the packages that parts require. The child process ends after at most `timeout` s.
+    contains the names of the packages that the parts of the chapters require. The child process ends after at
+    most `timeout` s.
     """
     reader, writer = os.pipe()
     pid = os.fork()
@@ -70,7 +71,7 @@ def become(home: Home) -> None:
 
     Do nothing if this process does not run as root.
 
-    After the change of the user, no process of the owner can trace this process (ptrace(2)). Raises
+    After this process has changed its user, no process of the home's owner can trace it (ptrace(2)). Raises
     PermissionError if this process still has rights of root.
     """
     if os.geteuid() != 0:
@@ -85,7 +86,7 @@ def become(home: Home) -> None:
 def _serve(writer: int, home: Home, folder: str, notebooks: Mapping[str, str], asked: frozenset[str]) -> None:
     """Send the work through a pipe, and exit."""
     try:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # The parent process ends this process.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # After Ctrl-C, the parent process ends this process.
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         os.closerange(3, writer)
         os.closerange(writer + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[0])

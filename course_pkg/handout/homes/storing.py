@@ -23,7 +23,7 @@ def store(folder: Path, files: Sequence[WorkFile]) -> None:
 
     Other notebooks and packages in the folder are not changed. Raises OSError if a file cannot be written.
     """
-    for draft in folder.glob(".*.collecting"):  # A killed collection left this folder.
+    for draft in folder.glob(".*.collecting"):  # An earlier collection was killed, and this folder remained.
         shutil.rmtree(draft, ignore_errors=True)
     for file in (each for each in files if not each.package):
         write_atomically(folder / file.path, file.content)

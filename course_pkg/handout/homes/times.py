@@ -1,6 +1,6 @@
-"""times.csv: the time of the last change of each collected file; deadlines need these times.
+"""times.csv: the time of the last change of each collected file; the grader compares them with the deadlines.
 
-The columns are student, chapter, file and time. The column `file` contains a path in the folder of
+The columns are student, chapter, file and time. The column `file` contains a path relative to the folder of
 submissions. The column `time` contains the file's modification time in ISO 8601 with a time zone. A package
 has a row for each of its files, and a row for its folder with the time of its newest file. If several
 chapters require the package, the table has these rows for each chapter.
@@ -71,7 +71,7 @@ class TimesTable:
             if lines and lines[0] == COLUMNS:
                 return [Row(*line) for line in lines[1:] if len(line) == len(COLUMNS)]
         except (OSError, ValueError, csv.Error):
-            pass  # A row with another format gets the error message below.
+            pass  # If the file has another format, the code below raises an error.
         raise HandoutError(
             f"Nothing was collected, because {folder} contains no {TIMES} with the columns "
             f"{', '.join(COLUMNS)}. Give a new folder, an empty folder, or a folder that `course collect` "

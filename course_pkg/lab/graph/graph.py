@@ -36,9 +36,9 @@ class Graph:
     """A graph that this command uses until leave() is called.
 
     `uri` is the address of the master. `files` are the file descriptors of the private network's namespaces.
-    If `files` is empty, the graph uses the network of this machine. In this case, `reason` is the reason, or
-    "" if the user asked for the network of this machine. After wait_for_master(), `outgoing` is true if
-    programs in the private network can connect to other computers.
+    If `files` is empty, the graph uses the network of this machine. In this case, `reason` says why, or is ""
+    if the user asked for the network of this machine. After wait_for_master(), `outgoing` is true if programs
+    in the private network can connect to other computers.
     """
 
     def __init__(
@@ -82,8 +82,8 @@ class Graph:
             # The holder continues to run for other commands, so this process does not wait for it.
             self._holder.returncode = 0
         if not received.endswith(LAST) and (left := _connected(self._path)):
-            # The holder still runs. If the holder has been killed, _connected() removes its socket and
-            # returns None.
+            # A connection means that the holder still runs. If the holder has been killed, _connected()
+            # removes its socket and returns None.
             left.close()
         for file in self.files:
             os.close(file)
@@ -139,7 +139,7 @@ def _running(folder: Path) -> Graph | None:
 
 
 def _connected(path: Path) -> socket.socket | None:
-    """Return a connection to the holder at `path`.
+    """Return a connection to the holder process whose socket is at `path`.
 
     If the holder has ended, remove the socket and return None.
     """

@@ -11,7 +11,8 @@ from traitlets import Unicode
 class GraphKernelManager(ServerKernelManager):  # type: ignore[misc]  # The base class has no types.
     """Starts a kernel of any kind with the command `enter`, which executes the kernel in the same process.
 
-    Therefore, the kernel has the process id that the server knows, and the server can interrupt the kernel.
+    Because `enter` does not start a new process, the server knows the kernel's process id, and can interrupt
+    the kernel.
     """
 
     enter = Unicode(help="the start of each kernel's command").tag(config=True)

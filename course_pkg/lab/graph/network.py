@@ -18,8 +18,8 @@ from typing import NoReturn
 from course_pkg.sandbox.linux import namespaces
 
 ENTER = "nsenter"  # a program of util-linux
-# A graph has 0, 1 or 2 file descriptors. For each of these numbers, the value contains the kind of each
-# namespace.
+# Each key is a number of file descriptors of a graph. Each value contains the kinds of the namespaces that
+# they refer to.
 KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}
 
 
@@ -50,7 +50,7 @@ def enter(files: Sequence[int]) -> None:
 
 
 def entering(files: Sequence[int]) -> list[str]:
-    """Return a prefix for a command line; it runs the command in the namespaces with these file descriptors.
+    """Return a prefix for a command line, which runs the command in the namespaces with these descriptors.
 
     The prefix works as long as this process has the file descriptors open.
     """

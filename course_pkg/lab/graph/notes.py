@@ -1,4 +1,4 @@
-"""What a user should know about the graph of a command."""
+"""The message to the user about the limits of a command's graph."""
 
 from __future__ import annotations
 

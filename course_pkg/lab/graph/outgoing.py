@@ -1,9 +1,9 @@
 """Connections from a private network to other computers, through slirp4netns.
 
 slirp4netns forwards each connection from the private network as an ordinary connection of the user.
-slirp4netns accepts no connection from outside. It does not forward to the loopback addresses of this
-computer, because servers of other users listen there. The program pasta could also be used, but pasta of
-Debian 12 cannot open a namespace by a descriptor in /proc.
+slirp4netns accepts no connection from outside. slirp4netns does not forward connections to the loopback
+addresses of this computer, because servers of other users listen there. The program pasta could also be used,
+but pasta of Debian 12 cannot open a namespace by a descriptor in /proc.
 """
 
 from __future__ import annotations

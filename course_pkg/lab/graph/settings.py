@@ -12,12 +12,11 @@ from course_pkg.lab.shell import SHELL
 def settings_for(graph: Graph | None) -> dict[str, object]:
     """Return the settings that put kernels and terminals on `graph`.
 
-    The keys are the names of Jupyter's traits.
+    The keys of the result are the names of Jupyter's traits.
 
     The server and a kernel communicate through sockets that are files (transport "ipc"). If the graph has a
     private network, the server is outside this network, so the server cannot use the kernel's TCP ports.
-    Without a private network, the reason is different: another program could take a TCP port before the
-    kernel opens the port.
+    In the network of the machine, another program could take a TCP port before the kernel opens the port.
     """
     if not graph or not graph.files:
         return {"KernelManager.transport": "ipc"}

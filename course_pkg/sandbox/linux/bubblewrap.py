@@ -103,8 +103,8 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 def _root_capabilities() -> Iterator[str]:
     """Yield the options that allow root to mount /proc, and to become the user nobody afterwards.
 
-    If bwrap mounted the new /proc itself, it would cover some folders of this /proc. The kernel would then
-    not allow the inner sandboxes to mount their own /proc.
+    If bwrap mounted the new /proc, bwrap would also mount other folders over parts of it. The kernel would
+    then not allow the inner sandboxes to mount their own /proc.
     """
     yield from ("--dir", "/proc")
     for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):
@@ -127,9 +127,10 @@ def _file_system(shown: Sequence[Path]) -> Iterator[str]:
 
 
 def _shadows(shown: Sequence[Path]) -> Iterator[str]:
-    """Yield options that copy the visible paths in /tmp and /dev/shm to another folder.
+    """Yield options that make the visible paths in /tmp and /dev/shm also visible in the folder SHADOW.
 
-    Each part mounts new folders at /tmp and /dev/shm, and then mounts the copies in these new folders.
+    Each part mounts new folders at /tmp and /dev/shm, and then mounts the paths from SHADOW in these new
+    folders.
     """
     inside = [path for path in dict.fromkeys(shown) if any(map(path.is_relative_to, MEMORY_FOLDERS))]
     for number, path in enumerate(inside):

@@ -20,7 +20,8 @@ PROCESSES = 200
 # The total size of all files in each of the folders /student and /tmp has this limit in bytes.
 DISK = 128 << 20
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
-# SHADOW is a folder with copies of files, and the variable SHADOWED lists the paths of these files.
+# The visible paths in /tmp and /dev/shm are also mounted in the folder SHADOW; the variable SHADOWED lists
+# them.
 SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"
 FILES = 20_000  # Each of the folders /student and /tmp may contain at most this number of files.
 FILE = 64 << 20  # A file has at most this size in bytes.
@@ -80,7 +81,7 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
 
 
 def _mount_memory_folders() -> None:
-    """Mount new folders in memory, and make the paths in shadowed_paths() visible in them again."""
+    """Mount new folders in memory, and mount the paths of shadowed_paths() in these folders again."""
     shadows = {path: f"{SHADOW}/{number}" for number, path in enumerate(shadowed_paths())}
     for path, place in shadows.items():
         if os.path.isdir(path):

@@ -1,9 +1,9 @@
 """A weaker sandbox for machines that forbid namespaces: other users of the machine, and limits.
 
-An example is a container of Gradescope in which the grader is root. The processes of a part run as users that
-own no other files. The student's code therefore cannot read the solutions, write the grades, or send signals
-to the grader. Without namespaces, the student's code can reach the network, and it can see the names of
-processes.
+For example, a container of Gradescope forbids namespaces, and the grader in it is root. The processes of a
+part run as users that own no other files. The student's code therefore cannot read the solutions, write the
+grades, or send signals to the grader. Without namespaces, the student's code can reach the network, and it
+can see the names of processes.
 """
 
 from __future__ import annotations
@@ -129,7 +129,7 @@ def _kill_all(uid: int, killer: int) -> None:
     """Kill all processes of `uid` in one system call, so that no process can fork before it is killed.
 
     Only the effective user id of the killing process is `uid`. The killed processes therefore cannot send
-    signals to it.
+    signals to the killing process.
     """
     if not (pid := os.fork()):
         try:
@@ -196,8 +196,8 @@ def _remove(path: str) -> None:
 def refusal(hidden: Iterable[Path] = ()) -> str:
     """If this machine cannot run students' code as another user, return the reason; else return "".
 
-    The other user must be able to read the course and the environment, and must not be able to read the
-    checks, the solutions or the paths in `hidden`.
+    The user who runs students' code must be able to read the course and the environment, but must not be able
+    to read the checks, the solutions or the paths in `hidden`.
     """
     if os.geteuid() != 0:
         return "Only root can run students' code as another user."

@@ -13,7 +13,7 @@ from pygments.lexers import get_lexer_by_name
 from pygments.token import Comment, Keyword, Name, Number, Operator, String, _TokenType
 from pygments.util import ClassNotFound
 
-# These kinds of tokens get a colour; a subtype comes before its parent type. The letters are classes in
+# These kinds of tokens get a colour; a subtype comes before its parent type. The letters are CSS classes in
 # site.css.
 COLOURS = (
     (Comment, "c"),
@@ -94,7 +94,7 @@ def _colour(kind: _TokenType) -> str:
 
 
 def _runs(coloured: Iterator[tuple[str, str]]) -> Iterator[str]:
-    """Join adjacent tokens of the same colour into one element; white space gets no element."""
+    """Join adjacent tokens of the same colour into one HTML element; white space gets no element."""
     for name, run in groupby(coloured, key=lambda pair: pair[0]):
         text = escape("".join(text for _, text in run), quote=False)
         yield f"<i class={name}>{text}</i>" if name else text

@@ -4,8 +4,8 @@ The HTML contains the data of the figures, because a page must not load image fi
 
 A drawing (SVG) becomes part of the page's HTML, so readers can select and search its text. A drawing uses the
 page's colours if two conditions are true: its text has the colour `currentColor`, and its white background is
-`<rect class="ground" …>`. The page does not fill such a rectangle. Any other drawing has a white background,
-even in dark mode.
+`<rect class="ground" …>`. On the page, a rectangle of the class `ground` is transparent. Any other drawing
+has a white background, even in dark mode.
 """
 
 from __future__ import annotations

@@ -22,8 +22,8 @@ NOTEBOOK = re.compile(r"(?P<name>\d\d_\w+)\.ipynb(?P<anchor>#.*)?$")
 class Prose:
     """Renders the Markdown of one page, and adds an anchor to each heading.
 
-    `highlight` converts code and the name of its language into HTML. `figure` converts the address and the
-    description of a figure into HTML. All anchors begin with `prefix`.
+    The function `highlight` converts code and the name of its language into HTML. The function `figure`
+    converts the address and the description of a figure into HTML. All anchors begin with `prefix`.
     """
 
     def __init__(
@@ -68,7 +68,7 @@ class _Renderer(HTMLRenderer):
         return f'<div class="wide"><table>{text}</table></div>\n'
 
     def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
-        # An empty cell in the header row of a table is not a header.
+        # In the header row of a table, an empty cell becomes <td>, not <th>.
         tag = "th" if head and text.strip() else "td"
         style = f' style="text-align:{align}"' if align else ""
         return f"<{tag}{style}>{text}</{tag}>"

@@ -20,7 +20,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from course_pkg.checking.fixtures import around, percent_cells
-from course_pkg.checking.parts import every_part
+from course_pkg.checking.parts import Part, every_part
 from course_pkg.checking.report import Verdict
 from course_pkg.sandbox.job import PartJob
 from tests.checking.answers.workers import WorkerPool
@@ -35,10 +35,10 @@ def answers_main() -> int:
     folder, *wanted = sys.argv[1:]
     paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
     written = [answer for path in paths for answer in _written(path)]
-    deadlines = {part.check: part.deadline for part in every_part()}
+    parts = {part.check: part for part in every_part()}
     count: Counter[tuple[str, str]] = Counter()
     with WorkerPool(2 * (os.cpu_count() or 1)) as pool:
-        jobs = [(answer, _job_of(answer, source, deadlines)) for answer, source in written]
+        jobs = [(answer, _job_of(answer, source, parts)) for answer, source in written]
         pool.submit(job for _, job in jobs)
         for answer, job in jobs:
             outcome = pool.result(job)
@@ -65,7 +65,9 @@ def _written(path: Path) -> Iterator[tuple[dict[str, str], str]]:
         yield found.groupdict(default=""), source
 
 
-def _job_of(answer: dict[str, str], source: str, deadlines: dict[str, float]) -> PartJob:
+def _job_of(answer: dict[str, str], source: str, parts: dict[str, Part]) -> PartJob:
     before, after = around(answer["check"])
     cells = tuple(cell.strip("\n") + "\n" for cell in source.split("# --- next cell\n"))
-    return PartJob(answer["check"], before, cells, after, random.getrandbits(32), deadlines[answer["check"]])
+    part = parts[answer["check"]]
+    seed = random.getrandbits(32)
+    return PartJob(part.check, before, cells, after, seed, part.deadline, hidden=part.hidden)
