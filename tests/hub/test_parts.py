@@ -71,7 +71,7 @@ def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
 
 
 def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
-    """Without control groups, describe() returns a text about rlimits, and rlimits limit the memory."""
+    """Without control groups, the limits of setrlimit() are used, and too large an allocation fails."""
     assert limits.group_of_hub(tmp_path) is None
     assert "rlimits" in limits.describe(LIMITS, None, own_account=True)
     program = "from tests.hub.test_parts import *; limits.set_rlimits(LIMITS, True); bytearray(400 << 20)"
@@ -81,7 +81,7 @@ def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
 
 
 def test_a_new_release_keeps_the_students_work(tmp_path: Path) -> None:
-    """Nbgitpuller downloads a new notebook, and does not overwrite a changed notebook."""
+    """The program nbgitpuller downloads new notebooks, and does not overwrite changed notebooks."""
     course, home = tmp_path / "course", tmp_path / "home" / "ros-course"
     for name in ("notebooks", "figures"):
         (course / name).mkdir(parents=True)
@@ -101,7 +101,7 @@ def test_a_new_release_keeps_the_students_work(tmp_path: Path) -> None:
 
 
 def test_the_proxy_is_pinned() -> None:
-    """The lock file contains no address of a registry."""
+    """The lock file of the JupyterHub proxy contains no address of a package registry."""
     lock = Path(__file__).parents[2] / "deploy" / "jupyterhub" / "package-lock.json"
     assert "configurable-http-proxy" in lock.read_text()
     assert "resolved" not in lock.read_text()

@@ -1,4 +1,4 @@
-"""Tests of `jupyter lab` in the course's environment: it has a master and the settings of `course lab`."""
+"""Tests of `jupyter lab` without `course lab`: it has a master and the same settings as `course lab`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ READY = 60.0  # s
 
 @pytest.fixture(scope="module")
 def by_hand(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """Start `jupyter lab` by its path and without any ROS variable, as an editor or Binder does."""
+    """Start `jupyter lab` without ROS's environment variables, as an editor or Binder does."""
     port = free_port()
     command = [Places.of().venv / "bin" / "jupyter", "lab", "--no-browser", "--allow-root"]
     options = ["--IdentityProvider.token=t", f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]

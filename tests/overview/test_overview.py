@@ -61,7 +61,7 @@ def test_at_the_beginning_the_first_chapter_is_next() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_fulfilled_goals_are_counted() -> None:
-    """If a part has not passed, the overview shows the points of its last check."""
+    """If a part has not passed, the overview shows the points that the last check gave."""
     StudentRecord().store("05.3", {"check": "05.3", "verdict": "not yet", "points": 1.5})
     shown = progress("05")
     assert str(shown).startswith("Chapter 05, Write a server: 0 of 5 parts passed, 1.5 of 11 points")
@@ -126,7 +126,7 @@ def test_at_the_end_there_is_nothing_left() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_an_unknown_chapter_is_refused() -> None:
-    """The error message contains the first and the last chapter number."""
+    """The error message for an unknown chapter contains the first and the last chapter number."""
     with pytest.raises(UnknownCheck, match=r"no chapter '99'. Give a number from 00 to 16"):
         progress("99")
     assert str(progress("5")) == str(progress("05"))

@@ -39,7 +39,7 @@ MODELS = [
 
 @pytest.fixture
 def nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Return the address of a master that does not exist."""
+    """Set ROS_MASTER_URI to the address of a master that does not exist."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
 
 
@@ -67,7 +67,7 @@ def test_an_error_of_a_panel_itself_is_explained_if_it_is_known(nowhere: None) -
 
 
 def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaster) -> None:
-    """A wire view of a failed call shows the error message and an explanation."""
+    """After a failed call, the panel WireView shows the error message and an explanation."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_MASTER_URI", master.uri)
         with caused("returns_none"):
@@ -88,7 +88,7 @@ def test_each_panel_is_framed(entry: Path) -> None:
 
 
 class Polled:
-    """A value, the poller that reads this value, and everything that the poller reports."""
+    """A value, a poller that reads the value, and a list of everything that the poller reports."""
 
     def __init__(self) -> None:
         self.now: object = 1

@@ -237,7 +237,7 @@ PUBLISHER: PublisherReport = {
     ],
 )
 def test_the_sentence_about_a_message(change: PublisherReport, words: str) -> None:
-    """The sentence says what happened to the published message."""
+    """published() returns a sentence that says what happened to the published message."""
     assert published({**PUBLISHER, **change}, "/panel") == words
 
 

@@ -27,7 +27,7 @@ def filmed(*snapshots: Observation) -> TurtleRecording:
 
 
 def test_a_turtle_that_rests_makes_one_row() -> None:
-    """While a turtle does not move, the recording gets no new rows."""
+    """While a turtle does not move, no rows are added to the recording."""
     recording = filmed(*[at(3.0, speed=0.0)] * 1200)
     assert recording.rows == [(0, 0, 3000, 2000, 0, UP)]
     assert recording.length == 1199 * LOOK

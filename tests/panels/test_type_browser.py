@@ -25,7 +25,7 @@ from tests.types.conftest import build, package
 
 
 class Wall:
-    """Stores the messages of a model; each message consists of keyword arguments."""
+    """Stores the messages of a model; the parts of a message are keyword arguments."""
 
     def __init__(self) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -94,7 +94,7 @@ def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
 
 
 def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
-    """If the file differs from the built type, the browser shows a note.
+    """If the definition file differs from the built type, the browser shows a note.
 
     A changed comment is not a difference.
     """
@@ -117,7 +117,7 @@ def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
 
 @pytest.mark.parametrize("name", ["std_srvs/Nothing", "nonsense", "a/b/c", "<script>/x"])
 def test_a_type_that_is_not_there(name: str) -> None:
-    """For an unknown name, the page shows similar names or other advice."""
+    """For an unknown name, the page shows similar names or gives other advice."""
     told = described(name, "srv")
     assert name in told["problem"]
     assert (told["parts"], told["md5"]) == ([], "")
@@ -174,7 +174,7 @@ def test_a_name_of_both_halves_is_the_service() -> None:
 
 
 def test_who_offers_a_type_now() -> None:
-    """The browser lists the services with a service type, and the topics with a message type."""
+    """For a type, the browser lists the services or topics that use this type."""
     seen = Snapshot(
         "http://localhost:11311",
         (NodeSeen("/a", "x", "answered"),),

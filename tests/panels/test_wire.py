@@ -108,16 +108,16 @@ def gapless(pieces: list[PieceState], size: int) -> bool:
 
 
 def connection(*said: tuple[bool, bytes], closed_by: str = "client") -> RelayedConnection:
-    """Return a connection with these blocks of bytes.
+    """Return a recorded connection with the given blocks of bytes.
 
-    The Boolean of each block says whether the client sent the block.
+    The Boolean of each block says whether the client has sent this block.
     """
     chunks = [Chunk(10 + number / 1000, *each) for number, each in enumerate(said)]
     return RelayedConnection(10.0, chunks, closed_by)
 
 
 def titles(*conversations: RelayedConnection, kind: ServiceType | None = GEOMETRY, **more: int) -> list[str]:
-    """Return the titles of the steps of these connections."""
+    """Return the titles of the steps that the wire view shows for the given connections."""
     wire = Wire("/x", uri="rosrpc://localhost:1", connections=conversations, kind=kind, **more)
     return [step["title"] for step in state(wire, unknown)["steps"]]
 

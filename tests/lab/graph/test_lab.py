@@ -81,7 +81,7 @@ def test_nothing_is_left_after_a_kill_and_the_end(served: Service, victim: bytes
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
 def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
-    """Kill `course run`, its master or the graph's holder 100 times, and assert that no process remains."""
+    """After `course run`, its master or the graph's holder was killed 100 times, no process remains."""
     victims = [b"", b"rosmaster\0--core", HOLDER]
     left = []
     for number in range(100):

@@ -32,7 +32,7 @@ def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot
 
 
 class Wall:
-    """Stores the messages that a graph panel's model sends."""
+    """Stores the messages that the model of a graph panel sends."""
 
     def __init__(self, snapshot: Snapshot | None = None) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -52,7 +52,7 @@ class Wall:
 
 
 def counts(*messages: int, every: float = 2.0) -> list[Activity]:
-    """Return one Activity for each number in `messages`. The number is the message count of /chatter.
+    """Return one Activity object for each message count of the topic /chatter in `messages`.
 
     The times of two consecutive Activity objects differ by `every` s.
     """
@@ -63,7 +63,7 @@ def counts(*messages: int, every: float = 2.0) -> list[Activity]:
 
 
 def test_a_rate_is_shown_for_its_topic_and_for_each_connection() -> None:
-    """The rate is below the topic's name, and the details contain the rate of each connection."""
+    """The topic's rate is shown below its name, and the details contain the rate of each connection."""
     wall = Wall()
     for activity in counts(100, 120, 140):
         wall.model.count(activity)
@@ -81,7 +81,7 @@ def test_a_topic_without_publisher_or_subscriber_has_no_rate() -> None:
 
 
 def test_before_the_second_count_there_is_no_rate() -> None:
-    """After one count, the details contain the number of messages, but no rate."""
+    """After the first count, the details contain the number of messages, but no rate."""
     wall = Wall()
     wall.model.count(counts(1)[0])
     assert wall.now["notes"]["topic /chatter"] == ""
@@ -126,7 +126,7 @@ def test_several_publishers_add_up_and_several_listeners_do_not() -> None:
 
 
 def test_counts_never_draw_again_and_are_sent_only_if_they_change() -> None:
-    """If the rates do not change, the panel sends no message to the page."""
+    """If the rates do not change, the panel's model sends no message to the page."""
     wall = Wall()
     for activity in counts(*range(0, 800, 20)):
         wall.model.count(activity)
@@ -145,7 +145,7 @@ def test_notes_fit_below_the_name_of_a_topic() -> None:
 
 
 def test_many_connections_are_shortened() -> None:
-    """A hundred connections are shown as one summary."""
+    """If a topic has a hundred connections, the details end with the row "89 more connections"."""
     listeners = tuple(f"/listener_{number}" for number in range(100))
     wall = Wall(graph(topics=(TopicSeen("/chatter", "a/B", ("/talker",), listeners),)))
     wall.model.count(Activity(0.0))
@@ -309,7 +309,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The displayed rate differs by at most `doubt` from `rate`, and has as few digits as possible."""
+    """The result differs by at most `doubt` from `rate`, and has as few digits as possible."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 

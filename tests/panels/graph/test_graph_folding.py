@@ -25,7 +25,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def graph(*topics: tuple[str, str, str], services: dict[str, str] | None = None) -> Snapshot:
-    """Return a snapshot of these topics (publisher, name, subscriber) and services."""
+    """Return a snapshot with `topics`, as (publisher, name, subscriber), and with `services`."""
     offered = services or {}
     names = sorted({name for who, _, whom in topics for name in (who, whom)} | set(offered.values()))
     return Snapshot(
@@ -186,7 +186,7 @@ def said() -> tuple[GraphModel, list[dict[str, object]]]:
 
 
 def test_a_folded_namespace_stays_folded_when_the_graph_changes() -> None:
-    """A namespace that the student has folded stays folded after a new node appears."""
+    """If the student has folded a namespace, it stays folded when a new node appears."""
     model, heard = said()
     model.see(TURTLE)
     assert heard[-1]["spaces"] == [{"name": "/turtle1/", "folded": False}]
@@ -211,7 +211,7 @@ def test_the_list_contains_folded_shapes() -> None:
 
 @pytest.mark.parametrize("noise", [False, True])
 def test_loggers_of_a_node_are_a_namespace(noise: bool) -> None:
-    """If the logger services are shown, the two logger services of each node form a namespace."""
+    """If the panel shows the logger services, the two logger services of each node form a namespace."""
     loggers = {f"/sim/{name}": "/sim" for name in ("get_loggers", "set_logger_level")}
     shown = picture(graph(("/sim", "/pose", "/watch"), services=loggers), noise=noise)
     assert list(namespaces(shown)) == ["/sim/"] * noise

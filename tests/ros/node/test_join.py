@@ -20,7 +20,7 @@ JOIN = "from course_pkg.ros import join\nnode = join('student')"
 
 
 def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
-    """Another join() returns the same node."""
+    """If join() is called again, it returns the same node."""
     kernel.run(JOIN)
     assert kernel.run("result = join('student') is node, node.name, repr(node)") == [
         True,
@@ -38,7 +38,7 @@ def test_private_master_without_ros_master_uri() -> None:
 
 
 def test_workspace_is_found_without_sourcing() -> None:
-    """A kernel can import the course's types without ROS's environment variables."""
+    """A kernel can import the course's types even if ROS's environment variables are not set."""
     bare = dict.fromkeys(("ROS_PACKAGE_PATH", "CMAKE_PREFIX_PATH", "ROS_MASTER_URI", "ROS_HOSTNAME"))
     with Kernel({**bare, "PYTHONPATH": str(Path(__file__).parents[2])}) as kernel:
         kernel.run(JOIN)
@@ -61,7 +61,10 @@ def test_malformed_uri(uri: str) -> None:
 
 
 def test_no_program_at_the_uri() -> None:
-    """If no master is at the address, join() raises an error. After the address was removed, join() works."""
+    """If no master is at the address, join() raises an error.
+
+    After ROS_MASTER_URI was removed, join() works.
+    """
     with Kernel({"ROS_MASTER_URI": "http://localhost:1"}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MasterUnreachable"
@@ -92,7 +95,7 @@ def test_another_program_at_the_uri(tmp_path: Path) -> None:
 
 
 def test_two_kernels_with_one_name(kernel: Kernel) -> None:
-    """If two kernels use the same name at the same time, the second kernel gets an error."""
+    """If two kernels use the same name at the same time, the second kernel gets an error from join()."""
     kernel.run(JOIN)
     with Kernel() as second:
         reply = second.ask(JOIN)

@@ -23,7 +23,7 @@ CALL = """
 from std_srvs.srv import Trigger
 node.call({name!r}, Trigger, timeout=0.5)
 """
-LONGEST = 2.0  # A call with a timeout of 0.5 s may take this many seconds on a busy machine.
+LONGEST = 2.0  # On a busy machine, a call with a timeout of 0.5 s is allowed to take this many seconds.
 
 RAW_SERVER = """
 import rospy, sys, threading
@@ -59,7 +59,7 @@ def joined(kernel: Kernel) -> Kernel:
 
 @contextmanager
 def listening(accept: bool = True) -> Iterator[int]:
-    """Yield the port of a server that never sends data.
+    """Yield the port of a server that never sends any data.
 
     If `accept` is false, the server accepts no connections.
     """
@@ -88,7 +88,7 @@ def registered(name: str, uri: str) -> Iterator[None]:
 
 
 def times_out(kernel: Kernel, name: str) -> str:
-    """Assert that a call in the kernel raises CallTimeout in time, and return the error message."""
+    """Assert that a call in the kernel raises CallTimeout in time; return the message of CallTimeout."""
     reply = kernel.ask(CALL.format(name=name), timeout=20)
     assert reply.error == "CallTimeout", reply
     assert 0.5 <= reply.took < LONGEST
@@ -194,7 +194,7 @@ def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
 
 
 def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess) -> None:
-    """After a timeout, a persistent proxy uses a new connection."""
+    """After a call has timed out, a persistent proxy uses a new connection."""
     joined.run(
         "from std_srvs.srv import Trigger; proxy = BoundedProxy('/raw/well', Trigger, persistent=True)"
     )
@@ -235,7 +235,7 @@ def test_an_action_is_repeated_until_it_is_disarmed() -> None:
 
 
 def _round(guard: Watchdog) -> None:
-    """Arm another action, and wait until the watchdog's thread has run it."""
+    """Arm an action with the watchdog, and wait until the watchdog has run the action."""
     told = threading.Event()
     number = guard.arm(time.monotonic(), told.set)
     assert told.wait(5)
@@ -243,7 +243,7 @@ def _round(guard: Watchdog) -> None:
 
 
 def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The watchdog's thread ends if no action is armed, and a new thread starts for the next action."""
+    """The watchdog's thread ends when no action is armed; the next action starts a new thread."""
     monkeypatch.setattr(watchdog, "LINGER", 0.05)
     before = set(watching())
     guard = Watchdog()

@@ -73,7 +73,7 @@ def test_subscriber_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_publisher_and_subscriber_leave_the_graph(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """If the changed cell creates no publisher, the publisher of the last run is unregistered."""
+    """If the cell runs again without the line that creates a publisher, the old publisher is unregistered."""
     cell = """
     publisher = rospy.Publisher("/left", UInt32, queue_size=1)
     subscriber = rospy.Subscriber("/left", UInt32, print)
@@ -144,14 +144,14 @@ def test_one_cell_with_one_service_twice(notebook: NotebookKernel) -> None:
 
 
 def test_cells_without_ids(notebook: NotebookKernel) -> None:
-    """Without cell ids, each execution counts as a separate cell."""
+    """If cells have no ids, each execution counts as a separate cell."""
     serve = "service = rospy.Service('/no_id', Trigger, lambda r: (True, ''))"
     silent(notebook.run(serve))
     assert notebook.run(serve) == Shown(out=REPLACES.format("/no_id"))
 
 
 def test_creation_in_a_handler_belongs_to_no_cell(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """If a handler creates a publisher, no cell removes this publisher."""
+    """A publisher that a handler creates belongs to no cell, so no cell removes it."""
     cell = """
     def handle(request):
         global made
@@ -191,7 +191,7 @@ def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> Non
 
 
 def test_cell_within_a_cell(notebook: NotebookKernel) -> None:
-    """Objects that the code below %%capture creates belong to the cell."""
+    """If a cell begins with %%capture, the service that its code creates belongs to this cell."""
     cell = "%%capture\nservice = rospy.Service('/captured', Trigger, lambda r: (True, ''))"
     silent(notebook.run(cell, "captured"))
     silent(notebook.run(cell, "captured"))

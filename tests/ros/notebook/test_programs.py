@@ -1,4 +1,4 @@
-"""Tests of %rosrun and %roslaunch."""
+"""Tests of the magics %rosrun and %roslaunch."""
 
 from __future__ import annotations
 

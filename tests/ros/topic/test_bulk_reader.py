@@ -10,7 +10,7 @@ from tests.support import eventually
 
 
 class Notes:
-    """Stores everything that a reader passes to its callbacks."""
+    """Stores everything that a bulk reader passes to its callbacks."""
 
     def __init__(self) -> None:
         self.heard: dict[str, list[bytes]] = {}
