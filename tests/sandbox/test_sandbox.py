@@ -36,7 +36,7 @@ READABLE = [
     Path("/proc/kcore"),
 ]
 WRITE = ["/", "/usr", "/etc", "/dev", "/proc/sys/kernel", "/run", str(CHECKOUT / "course_pkg")]
-CALLS = {  # A refused call returns -1, and any other call returns 0 or a positive number.
+CALLS = {  # If the Linux kernel refuses a call, it returns -1; otherwise, it returns 0 or a positive number.
     "ptrace": "libc.ptrace(16, os.getppid(), 0, 0)",
     "unshare users": "libc.unshare(0x10000000)",
     "unshare network": "libc.unshare(0x40000000)",
@@ -60,8 +60,8 @@ CALLS = {  # A refused call returns -1, and any other call returns 0 or a positi
     "reboot": "libc.reboot(0x89ABCDEF)",
     "the clock": "libc.settimeofday(b'\\0' * 16, None)",
 }
-# Ten child processes run until stdin is closed. `before` is code that runs before the fork, and `after` is
-# code that runs in each child process.
+# The program starts ten child processes, and waits until stdin is closed. `before` is code that runs before
+# the fork, and `after` is code that runs in each child process.
 FORKED = """
 import os, sys
 {before}
@@ -83,7 +83,7 @@ def worker() -> Iterator[SandboxWorker]:
 
 
 def told(worker: SandboxWorker, source: str) -> str:
-    """Run a cell as a submission, and return the error message."""
+    """Run `source` as the answer of a submission, and return the error message of the cell."""
     job = PartJob("05.1", "", (textwrap.dedent(source),), "", 1, 1.0, 5.0, 10.0)
     said = [words["error"] for words in worker.run(job).messages if words["cell"].startswith("answer")]
     assert said, "the cell raised no error"
@@ -169,7 +169,7 @@ raise RuntimeError([each.seed for each in gc.get_objects() if isinstance(each, P
 
 
 def test_only_the_parts_own_folders_are_writable(worker: SandboxWorker) -> None:
-    """A submission can write files only in its own folders."""
+    """A submission cannot write files to the folders of the system or of the course."""
     words = told(
         worker,
         f"""
@@ -241,7 +241,7 @@ def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path:
 
 
 def test_the_memory_that_forked_processes_share_counts_once() -> None:
-    """Ten processes that share 40 MiB use 40 MiB; ten processes with 40 MiB each use 400 MiB."""
+    """Memory that processes share counts once, and memory that is not shared counts for each process."""
     shared = "kept = bytearray(b'x') * (40 << 20)"
     for before, after, more in ((shared, "pass", False), ("pass", shared, True)):
         command = [sys.executable, "-c", FORKED.format(before=before, after=after)]
@@ -330,7 +330,7 @@ def test_the_previous_answer_is_not_in_memory(worker: SandboxWorker) -> None:
 
 
 def test_nothing_of_the_previous_part_remains(worker: SandboxWorker) -> None:
-    """The next part finds no files, processes or variables that the previous part created."""
+    """The files, processes and variables that one part creates do not exist in the next part."""
     leave = """
     import os
     open("/student/note", "w").close(); open("/tmp/note", "w").close(); open("/dev/shm/note", "w").close()

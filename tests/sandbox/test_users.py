@@ -1,4 +1,4 @@
-"""Tests of attacks in the sandbox that runs submissions as other users, for machines without namespaces."""
+"""Tests of the sandbox for machines without namespaces, which runs each submission as another user."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.sandbox.other_users import run_installed, unpacked_autograder
 
 @pytest.mark.timeout(300)
 def test_attacks_by_another_user_reach_nothing(tmp_path: Path) -> None:
-    """No attack reads a solution, changes a file, earns points, or leaves a running process."""
+    """An attack cannot read a solution, change a file, earn points, or leave a running process."""
     source = unpacked_autograder(tmp_path, chapters=("05",))
     source.parent.chmod(0o700)
     checkout = Places.of().checkout

@@ -48,13 +48,13 @@ def test_the_users_preloaded_libraries_are_kept() -> None:
 
 
 def test_applying_the_environment_twice_changes_nothing() -> None:
-    """Inside `course run bash`, `course run` uses the same environment."""
+    """If the environment of the course is already set, merged() does not change it."""
     once = environment.merged(PLACES, {"PATH": "/a:/usr/bin"})
     assert environment.merged(PLACES, once) == once
 
 
 def test_an_editor_with_only_the_interpreter_can_import_everything() -> None:
-    """The course's Python can import the package, rospy and the generated types without special variables."""
+    """Without ROS's environment variables, the course's Python can import course_pkg, rospy and types."""
     program = (
         "import os, course_pkg.srv, rospy, std_srvs.srv, anywidget\n"
         "from course_pkg.setup import environment\n"

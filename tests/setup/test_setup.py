@@ -96,7 +96,7 @@ def test_without_root_and_sudo_the_message_contains_the_command(monkeypatch: pyt
 
 
 def test_progress_in_a_pipe_prints_start_and_result() -> None:
-    """In a pipe, each step prints a line at its start and a line at its end."""
+    """If the output is a pipe, each step prints a line at its start and a line at its end."""
     stream = io.StringIO()
     progress = Progress(stream)
     with progress.painting(), progress.step("catkin workspace"):
@@ -114,7 +114,7 @@ def test_progress_in_a_pipe_prints_start_and_result() -> None:
 
 
 def test_progress_counts_and_estimates_the_rest(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In a pipe, the progress prints a line every 10 s."""
+    """If the output is a pipe, the progress of the work is printed every 10 s."""
     now = 0.0
     monkeypatch.setattr("time.monotonic", lambda: now)
     stream = io.StringIO()

@@ -1,4 +1,4 @@
-"""Tests of the results in the outbox, the requests of the sender, and the notice in the notebook."""
+"""Tests of the outbox for results, the sender, and the notice in the notebook."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ REPORT = {
 
 @pytest.fixture
 def outbox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Outbox:
-    """Return an empty outbox, which stores results until they are sent."""
+    """Return an empty outbox, which stores results until the sender has sent them."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path / "state"))
     return Outbox()
 
@@ -32,7 +32,7 @@ def outbox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Outbox:
 def test_results_arrive_and_leave_the_outbox(
     outbox: Outbox, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The sender sends the hint, but not the student's values; the notebook shows the notice only once."""
+    """After send(), the outbox is empty, and the service has the hint, but not the student's values."""
     assert outbox.put(REPORT) == ""
     (stored,) = outbox.folder.glob("*.json")
     assert "my secret" not in stored.read_text()

@@ -17,7 +17,7 @@ FIRST = "# Try a panel\n\nA lead.\n\n**You will** see one.\n\n**You need** nothi
 
 
 def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
-    """Write each chapter as a solution and as a notebook with the same cells; return their store.
+    """Write a solution and a notebook with the same cells for each chapter; return the NotebookStore.
 
     An argument such as `_00_name` contains the cells of a chapter; the chapter's name is 00_name.
     """

@@ -29,7 +29,7 @@ def test_html_is_cleaned() -> None:
 
 
 def test_a_script_among_the_outputs_is_left_out() -> None:
-    """The page does not show a JavaScript result."""
+    """The page does not contain a result of the type JavaScript."""
     assert "alert" not in shown(result(application_javascript="alert(1)")).html
 
 

@@ -1,4 +1,4 @@
-"""Tests of figures in Markdown cells."""
+"""Tests of the figures that Markdown cells contain."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ DRAWING = (
 
 
 def page(folder: Path, *sources: str, prefix: str = "") -> Body:
-    """Return the body of a page with one Markdown cell for each source."""
+    """Return the body of a page that has one Markdown cell for each text in `sources`."""
     return Exporter().body(book(*(text(source, f"t{n}") for n, source in enumerate(sources))), prefix, folder)
 
 

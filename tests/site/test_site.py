@@ -36,10 +36,10 @@ def test_every_chapter_has_a_page_and_a_notebook_to_download(course: Path) -> No
 
 
 def test_pages_are_small(course: Path, panels: Path) -> None:
-    """The shared files of all pages have at most 170 kB (compressed).
+    """The files that all pages share have at most 170 kB (compressed).
 
-    A page with all panels has at most 60 kB. If pictures are not counted, half of the chapters' pages have at
-    most 60 kB.
+    A page with all panels has at most 60 kB. Without pictures, half of the chapters' pages have at most 60
+    kB.
     """
     loaded = [path for path in (course / "assets").iterdir() if path.suffix in (".js", ".css")]
     shared = sum(len(compress(path.read_bytes())) for path in loaded if path.name != "texts.js")
@@ -99,7 +99,7 @@ def test_the_same_course_makes_the_same_site(tmp_path: Path) -> None:
 
 @pytest.mark.timeout(300)
 def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
-    """The command prints the paths of the book and of the start page."""
+    """The command `course site` prints the paths of the book and of the start page."""
     command = [
         sys.executable,
         "-m",
@@ -120,7 +120,7 @@ def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
 
 
 def write(path: Path, *names: str) -> None:
-    """Write a site with files of these names."""
+    """Write a site that consists of files with the given names."""
     with Folder(path) as folder:
         for name in names:
             folder.write(name, name)

@@ -43,7 +43,10 @@ def pose(name="turtle1", after=0):
 
 @pytest.fixture
 def client(kernel: Kernel, simulator: NodeProcess) -> Kernel:
-    """Return a kernel that runs a node. The simulator contains only turtle1."""
+    """Return a kernel that runs a node.
+
+    The fixture resets the simulator, so that it contains only turtle1.
+    """
     kernel.run(CLIENT + "node.call('/reset', Empty)")
     return kernel
 
@@ -84,7 +87,7 @@ def test_the_node_has_the_topics_and_services_of_turtlesim(simulator: NodeProces
 
 
 def test_parameters(simulator: NodeProcess) -> None:
-    """Three private parameters of the node contain the background colour."""
+    """Three private parameters of the simulator contain the background colour."""
     shown = [terminal("rosparam", "get", f"/turtlesim/background_{each}").strip() for each in "rgb"]
     assert shown == ["69", "86", "255"]
 
@@ -222,7 +225,7 @@ def test_a_request_may_have_a_field_called_name(client: Kernel) -> None:
 
 
 def test_calls_of_the_simulator_are_recorded(client: Kernel) -> None:
-    """A recording contains the handler of the simulator and the waiting time of the client."""
+    """A recording contains the events of the simulator's handler and of the waiting client."""
     kinds = client.run(
         "with node.record() as recording:\n"
         "    node.call('/turtle1/teleport_absolute', TeleportAbsolute, 4, 4, 0)\n"

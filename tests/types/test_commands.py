@@ -28,7 +28,7 @@ from tests.types.random_values import AWKWARD
 
 
 def line(text: str, **values: object) -> str:
-    """Return the shell command for a request of the given definition."""
+    """Return the shell command for a request; `text` is the definition, and `values` are the values."""
     return rosservice_line("/x", compile_service("course_pkg/Demo", f"{text}\n---\n"), values)
 
 
@@ -50,7 +50,7 @@ def line(text: str, **values: object) -> str:
     ],
 )
 def test_the_line_is_the_one_to_type(text: str, values: dict[str, object], expected: str) -> None:
-    """In the command, numbers and strings are separate arguments, and ambiguous strings are quoted."""
+    """In the shell command, each number or string is one argument, and ambiguous strings have quotes."""
     assert line(text, **values) == expected
 
 
@@ -92,7 +92,7 @@ def test_python_keeps_types_of_one_name_apart() -> None:
 
 
 def test_python_of_unbuilt_parts_runs(packages: Path) -> None:
-    """For types that are not built, the generated code runs; it creates the types from their definitions."""
+    """If types are not built, the Python code creates the types from their definitions."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     value = {"crate": {"parts": [{"size": 2.0, "label": "nut"}]}}
@@ -193,7 +193,7 @@ result += rospy.ServiceProxy("/again", compiled)(d="cd").told
 def test_the_publishing_line_is_the_one_to_type(
     kind: str, values: dict[str, object], how: dict[str, Plain], expected: str
 ) -> None:
-    """The options come before the topic, and negative numbers come after --."""
+    """In `rostopic pub`, the options are before the topic, and negative numbers are after "--"."""
     assert rostopic_line("/x", message_type(f"std_msgs/{kind}"), values, **how) == expected
 
 
@@ -218,7 +218,7 @@ def test_a_publisher_is_written_as_a_person_would() -> None:
 
 
 def test_a_publisher_of_a_type_that_is_not_built_comes_from_its_text() -> None:
-    """For a type that is not built, the Python code makes the class from the text."""
+    """If a type is not built, the Python code makes the class from the definition's text."""
     kind = compile_message("demo/Spot", "geometry_msgs/Point at\nstring what\n")
     lines = publisher_lines("/x", kind, {"at": {"x": 1.0, "y": 2.0, "z": 3.0}, "what": "a"})
     names: dict[str, object] = {}

@@ -9,7 +9,7 @@ from course_pkg.types import compile_message, compile_service, service_type
 
 
 def refused(text: str) -> BrokenDefinition:
-    """Return the error for the text of a .srv file."""
+    """Return the error that the parser raises for the text of a .srv file."""
     with pytest.raises(BrokenDefinition) as caught:
         compile_service("course_pkg/Broken", text)
     return caught.value
@@ -109,13 +109,13 @@ def test_a_message_has_no_halves() -> None:
 
 @pytest.mark.parametrize("name", ["Demo", "a/b/c", "/Demo", "course_pkg/"])
 def test_a_type_needs_its_package(name: str) -> None:
-    """A name that is not package/Type is refused."""
+    """A type name that does not have the form package/Type is refused."""
     with pytest.raises(UnknownType, match="package/Type"):
         compile_service(name, "---\n")
 
 
 def test_comments_are_kept_with_their_fields() -> None:
-    """The comment after a field, or in the line before it, is the help text of the field."""
+    """A field's help text is the comment after the field, or the comment in the line before the field."""
     text = "# A box.\n# All of it.\n\n# in metres\nfloat32 a\nfloat32 b # in feet\nfloat32 c\n"
     request = compile_service("course_pkg/Box", f"{text}---\nbool done # or not\n").request
     assert request.help == "A box. All of it."

@@ -1,4 +1,4 @@
-"""Tests of converting strings to values and back."""
+"""Tests of the conversion between strings and values."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_numbers_are_shown_as_short_as_they_were_typed(geometry: MessageType) ->
     ],
 )
 def test_notations_that_can_be_typed(type_name: str, text: object, value: object) -> None:
-    """Each notation is converted to the right value."""
+    """Each notation that a student can type is converted to the right value."""
     assert parse(type_name, text) == value
 
 
@@ -112,7 +112,7 @@ def test_error_about_an_invalid_string(type_name: str, text: str, words: str) ->
 
 
 def test_an_error_carries_its_parts() -> None:
-    """The error has the attributes field, value, range and hint."""
+    """The error has the attributes field, value, allowed and hint."""
     error = refused("float32", "1,5")
     assert (error.field, error.value, error.hint) == ("x", "1,5", "write 1.5")
     assert error.allowed.startswith("a float32 from")
