@@ -107,7 +107,7 @@ class Kernel:
         self._process.kill()
 
     def interrupt(self) -> None:
-        """Interrupt the running cell with SIGINT to the whole process group, as Jupyter does."""
+        """Interrupt the running cell: send SIGINT to the kernel's process group, as Jupyter does."""
         os.killpg(self.pid, signal.SIGINT)
 
     def exit(self, timeout: float = 10.0) -> str:

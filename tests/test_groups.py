@@ -1,4 +1,4 @@
-"""Tests of the groups: one worker runs all tests of a group."""
+"""Tests of the groups of tests: one pytest-xdist worker runs all tests of a group."""
 
 from __future__ import annotations
 

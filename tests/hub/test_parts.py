@@ -57,7 +57,7 @@ def test_a_missing_or_foreign_home_is_a_problem(tmp_path: Path) -> None:
 
 
 def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
-    """The limits are written to the files of cgroup v2.
+    """The limits of memory and of the number of processes are written to the files of cgroup v2.
 
     The names and units are from Documentation/admin-guide/cgroup-v2.rst of Linux.
     """
@@ -108,7 +108,7 @@ def test_the_proxy_is_pinned() -> None:
 
 
 def test_the_files_for_containers_can_be_read() -> None:
-    """The files for Kubernetes and Docker contain a memory limit and start JupyterLab.
+    """The files for Kubernetes and Docker set a memory limit and start JupyterLab.
 
     This test only reads the files, and starts no container.
     """

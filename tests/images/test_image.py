@@ -49,7 +49,7 @@ class Image:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        # The container uses the certificates and the local package indexes of this machine.
+        # The container uses the certificates and the local package indexes of the host.
         settings = [Path("/etc/ssl/certs/ca-certificates.crt"), folder / "pip.conf"]
         self._volumes = [
             f"--volume={settings[0]}:{settings[0]}:ro",

@@ -1,4 +1,4 @@
-"""A small installation for tests: a copy of the package that uses the environment of this checkout."""
+"""A small installation of the course for tests; it uses the Python environment of the checkout."""
 
 from __future__ import annotations
 

@@ -100,7 +100,7 @@ def network_of(pid: int) -> list[str]:
 
 
 def own_namespace(kind: str) -> str:
-    """Return the identifier of this process's namespace; `kind` is the type, such as net."""
+    """Return the identifier of a namespace of the current process; `kind` is its kind, such as net."""
     return os.readlink(f"/proc/self/ns/{kind}")
 
 

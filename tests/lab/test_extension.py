@@ -135,7 +135,7 @@ def test_two_notebooks_of_one_name_have_separate_checkpoints(kept: CachedCheckpo
 
 
 def test_no_path_leads_out_of_the_checkout(kept: CachedCheckpoints) -> None:
-    """A path that leads out of the checkout gets no checkpoint."""
+    """If a path leads out of the checkout, checkpoint_path() raises an HTTPError with status 404."""
     with pytest.raises(HTTPError, match="404"):
         kept.checkpoint_path("checkpoint", "../elsewhere.ipynb")
 

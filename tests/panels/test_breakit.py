@@ -65,7 +65,7 @@ class Sheet:
 
 
 class Lab:
-    """A panel's model with fake stages, and the latest state that the model has sent."""
+    """The model of a panel that causes no real faults, and the latest state that the model has sent."""
 
     def __init__(self, path: Path, *chosen: str) -> None:
         self.paper = Paper()

@@ -75,7 +75,7 @@ class Harness:
 
     @property
     def state(self) -> dict[str, Plain]:
-        """Return the latest state."""
+        """Return the latest value of each part of the model's state."""
         return {name: value for message in self.messages for name, value in message.items()}
 
     def ended(self) -> dict[str, Plain]:
@@ -113,7 +113,7 @@ def test_a_call_is_two_messages(harness: Harness) -> None:
 
 
 def test_errors_are_shown_at_their_fields_and_nothing_is_called(harness: Harness) -> None:
-    """Each wrong field shows its allowed values, and no request is sent."""
+    """Each wrong field shows its allowed values, and the model sends no request."""
     harness.model.start({"length": "abc", "width": "5.2", "height": "1e39"}, "5")
     check = harness.state["check"]
     assert set(check["errors"]) == {"length", "height"}

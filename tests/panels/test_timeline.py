@@ -41,7 +41,7 @@ def message(number: int, at: float, *hearers: str) -> list[Event]:
 
 
 def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | dict[str, str]) -> Recording:
-    """Return a recording of these events."""
+    """Return a recording of `events`, which lasts `length` s."""
     ordered = tuple(sorted(events, key=lambda event: event.start))
     return Recording(
         events=ordered, nodes=tuple(sorted({event.node for event in events})), length=length, **more
@@ -49,7 +49,7 @@ def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | di
 
 
 def drawn(found: Recording) -> list[tuple[str, str]]:
-    """For each arrow, return the kinds of the events at its start and at its end."""
+    """Return, for each arrow, the kind of the event at its start and the kind of the event at its end."""
     return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
 
 
@@ -130,7 +130,7 @@ def test_fifty_overlapping_calls() -> None:
 
 
 def test_the_state_is_bounded() -> None:
-    """If there are too many events, a note contains the number of omitted events."""
+    """If there are too many events, a note contains the number of events that are not drawn."""
     stream = [event for n in range(5000) for event in message(n, n / 1000, "/simulator")]
     kept = state(recording(*stream, *call(at=4.0)))
     kinds = [kept["kinds"][kind] for kind in kept["columns"]["kind"]]

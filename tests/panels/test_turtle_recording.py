@@ -68,7 +68,7 @@ def test_a_slow_turtle_on_plain_paper_has_its_pen_up() -> None:
 
 
 def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
-    """While a turtle is fast, the background colour at its sensor does not mean that the pen is up."""
+    """If a fast turtle's sensor reads the background colour, the pen is not recorded as up."""
     fast = [at(3.0 + 0.25 * step, speed=5.0) for step in range(8)]
     recording = filmed(*fast)
     assert recording.rows[-1][5] != UP

@@ -218,9 +218,9 @@ def one_call(context: CheckContext) -> None:
 
 
 def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path: Path) -> None:
-    """If an answer uses too much memory during its check, the result contains an error about the memory.
+    """If an answer uses too much memory during its check, the error in the result is about the memory.
 
-    The result does not contain an error about a lost master.
+    The error is not about a lost master.
     """
     source = """
         import os, time
@@ -288,7 +288,7 @@ def test_it_has_no_privileges_and_sees_only_its_own_processes(worker: SandboxWor
 
 
 def test_an_answer_can_start_many_threads(worker: SandboxWorker) -> None:
-    """An answer can start 50 waiting threads."""
+    """An answer can start 50 threads that only wait."""
     words = told(
         worker,
         """

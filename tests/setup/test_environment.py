@@ -22,7 +22,7 @@ def test_the_courses_python_comes_first_on_path() -> None:
 
 
 def test_the_users_python_variables_are_removed() -> None:
-    """PYTHONPATH is replaced, and PYTHONHOME and PYTHONSTARTUP are removed."""
+    """In the course's environment, PYTHONPATH has a new value; PYTHONHOME and PYTHONSTARTUP are removed."""
     user = {"PYTHONPATH": "/x", "PYTHONHOME": "/y", "PYTHONSTARTUP": "/z", "EDITOR": "vi"}
     fresh = environment.merged(PLACES, user)
     assert "/x" not in fresh["PYTHONPATH"].split(":")

@@ -47,7 +47,7 @@ def test_a_full_disk_is_reported(journal: Journal) -> None:
 def test_a_full_disk_is_reported_without_a_message_from_the_tool(
     journal: Journal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If the disk is full and a tool fails without a message, the error message is about the full disk."""
+    """If a tool fails without a message while the disk is full, the error message is about the full disk."""
     monkeypatch.setattr("os.statvfs", lambda _: SimpleNamespace(f_bavail=3, f_frsize=4096))
     with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete files that you do not need"):
         journal.run(["false"])

@@ -62,7 +62,7 @@ def test_results_stay_if_they_cannot_be_sent(outbox: Outbox, tmp_path: Path) -> 
 
 
 def test_a_full_disk_is_one_message(outbox: Outbox) -> None:
-    """If the disk is full, the check's report says that the result is not shared."""
+    """If the disk is full, the report of the check says that the result is not shared."""
     outbox.folder.parent.mkdir(parents=True)
     outbox.folder.write_text("This file is in the way.")
     assert "This result is not shared with your teacher" in outbox.put(REPORT)

@@ -18,7 +18,7 @@ FOR_EVER = 60.0  # s; longer than any test
 
 
 def test_a_new_customer_is_returned_once() -> None:
-    """The same customer is not returned twice."""
+    """If a customer is seen twice, the second see() does not return this customer."""
     ticks = count(1)
     watch = Watch(lambda: next(ticks))
     assert watch.see([]) == []

@@ -43,7 +43,7 @@ PANELS = [
 
 @pytest.fixture(scope="session")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the site of the real course with the stored outputs, and without panels."""
+    """Build the site of the whole course from the outputs that the notebooks contain, without panels."""
     folder = tmp_path_factory.mktemp("course")
     write_site(Settings(folder / "site", execute=False, book=True), runs=runs(folder / "cache"))
     return folder / "site"

@@ -229,7 +229,7 @@ def test_a_search_without_results_shows_a_message(browser: Browser, course: Path
 def test_the_next_page_keeps_the_chosen_colours(
     browser: Browser, served: dict[Path, str], course: Path
 ) -> None:
-    """A click on the button changes the theme, and the next page has the same theme."""
+    """A click on the theme button changes the theme, and the next page has the same theme."""
     with reader(browser, colours="light") as page:
         page.goto(served[course])
         button = page.locator("button.theme")
@@ -270,7 +270,7 @@ def test_code_can_be_copied(browser: Browser, course: Path) -> None:
 
 
 def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> None:
-    """Without scripts, the page shows the code and a message about the missing panels."""
+    """If scripts are disabled, the page shows the code and a message about the missing panels."""
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((panels / PAGE).as_uri())

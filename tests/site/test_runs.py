@@ -24,7 +24,7 @@ def counter(tmp_path: Path) -> Path:
 
 
 def chapter(root: Path, counter: Path, prose: str = "Some prose.", last: str = "1 + 1") -> Path:
-    """Write a chapter that counts its runs, and return its path."""
+    """Write a chapter that adds a letter to the file `counter` in each run, and return its path."""
     store(
         root,
         _00_try=[text(prose, "prose"), code(COUNT.format(str(counter)), id="count"), code(last, id="last")],
@@ -46,7 +46,7 @@ def result(kept: Runs, path: Path) -> str:
 
 
 def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -> None:
-    """A change of prose needs no new run, but a change of code starts a new run."""
+    """If only prose changes, the chapter does not run again; if code changes, it runs again."""
     kept = runs(tmp_path / "cache")
     assert result(kept, chapter(tmp_path, counter)) == "2"
     path = chapter(tmp_path, counter, prose="Other prose.")

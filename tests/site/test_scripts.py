@@ -51,7 +51,7 @@ HERE = Path(__file__).parent
 
 
 def test_the_stored_bundle_matches_its_sources(tmp_path: Path) -> None:
-    """A new build gives the same bytes as the stored files."""
+    """A new build of the script has the same bytes as the stored files."""
     if not shutil.which("npm"):
         pytest.skip("this machine has no npm, so the bundle was not built and compared")
     try:
@@ -65,7 +65,7 @@ def test_the_stored_bundle_matches_its_sources(tmp_path: Path) -> None:
 
 
 def test_every_library_is_pinned_and_named() -> None:
-    """Each library has a version, a hash and a licence."""
+    """Each JavaScript library has a version, a hash and a licence."""
     package = json.loads((BUNDLE / "package.json").read_text("utf-8"))
     wanted = {**package["dependencies"], **package["devDependencies"]}
     locked = json.loads((BUNDLE / "package-lock.json").read_text("utf-8"))["packages"]

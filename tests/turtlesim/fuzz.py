@@ -38,7 +38,7 @@ ODD_NAMES = (
     "t/",
     "con",
 )
-MOST = 12  # If there are more turtles than this number, the fuzzer resets the simulator.
+MOST = 12  # If there are more turtles than MOST, the fuzzer resets the simulator.
 
 
 class Fuzzer:
@@ -139,7 +139,7 @@ class Fuzzer:
 
 
 def sane(node: Node) -> None:
-    """Assert that turtle1 is in the middle after a reset, and that a teleport moves turtle1."""
+    """Assert that turtle1 is in the middle after a reset, and that turtle1 can be teleported."""
     node.call("/reset", Empty, timeout=10)
     with node.subscribe("/turtle1/pose", Pose) as heard:
         heard.wait(1)

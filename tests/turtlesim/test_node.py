@@ -200,7 +200,7 @@ def test_a_velocity_that_is_not_finite_is_ignored(client: Kernel) -> None:
 
 
 def test_two_simulators_side_by_side(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """All names of a simulator in a namespace begin with the namespace."""
+    """If a simulator runs in a namespace, all its names begin with the namespace."""
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node", "__ns:=/left"]) as left:
         left.wait_for_service("/left/spawn")
         eventually(lambda: look().service("/left/turtle1/set_pen"))

@@ -18,7 +18,7 @@ from tests.support import eventually
 
 
 def test_a_square_closes() -> None:
-    """After a square, the turtle is less than 0.1 m from its start."""
+    """After draw_square, the turtle is less than 0.1 m from its start."""
     world = World()
     turtle = world.turtles["turtle1"]
     start, corners, now = (turtle.x, turtle.y), 0, 0.0

@@ -56,7 +56,7 @@ def request(message: object) -> bytes:
 def test_the_header_names_the_types_of_request_and_response(
     master: PrivateMaster, simulator: NodeProcess
 ) -> None:
-    """The header has exactly the fields of a roscpp server."""
+    """The header of the server's response has exactly the fields of a roscpp server."""
     sock, header = connected(master, "/spawn", service="/spawn", md5sum=Spawn._md5sum)
     sock.close()
     assert header == {

@@ -32,7 +32,7 @@ def run(world: World, ticks: int, start: float = 0.0) -> list[str]:
 
 
 def driven(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> tuple[World, Turtle]:
-    """Return a world with a turtle that has the given velocity."""
+    """Return a world, and its turtle with the given velocity."""
     world = World()
     turtle = world.turtles["turtle1"]
     turtle.velocity = Velocity(forward, sideways, turn, since=0.0)

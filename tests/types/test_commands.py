@@ -72,7 +72,7 @@ def test_values_that_do_not_fit_make_no_command() -> None:
 
 
 def test_python_is_written_as_a_person_would() -> None:
-    """The Python code contains the imports, the proxy, and one call with keyword arguments."""
+    """The Python code contains the imports, the proxy, and one call with the fields as keywords."""
     values = {"length": 1.2, "width": 5.2, "height": 8.9}
     assert rospy_line("/getGeometry", service_type("course_pkg/geometry"), values) == (
         "import rospy\n"

@@ -51,7 +51,7 @@ def refusal(mixed: MessageType) -> Callable[..., FieldError]:
 
 
 def test_defaults_are_those_of_genpy(mixed: MessageType) -> None:
-    """The default values are equal to those of a new message."""
+    """The default values of a message type are equal to the values of a new genpy message."""
     assert mixed.to_message(mixed.default()) == mixed.cls()
     assert mixed.to_values(mixed.cls()) == mixed.default()
 
@@ -83,7 +83,7 @@ def test_fields_have_type_kind_and_parts(mixed: MessageType) -> None:
 def test_integers_have_the_range_of_their_type(
     mixed: MessageType, refusal: Callable[..., FieldError], name: str, low: int, high: int
 ) -> None:
-    """The limits of an integer type are valid; a number outside these limits is not valid."""
+    """The smallest and the largest number of an integer type are valid, and numbers outside are not valid."""
     for edge in (low, high):
         assert mixed.check({**mixed.default(), name: edge})[name] == edge
     for beyond in (low - 1, high + 1):

@@ -128,7 +128,7 @@ def test_the_courses_programs_are_never_the_students(root: Path) -> None:
     "text", ["", "<package><name>my_arm</name>", "<package><version>1</version></package>"]
 )
 def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str) -> None:
-    """A kernel ignores a package whose package.xml is not valid XML."""
+    """If a package.xml is not valid XML, a kernel ignores only this package."""
     package(root, "my_arm", client=SERVER)
     package(root, "my_hand", client=SERVER)
     manifest = root / "src" / "my_arm" / "package.xml"

@@ -28,7 +28,7 @@ class Messages:
         client.load_connection_file()
         client.start_channels()
         try:
-            # A kernel that is starting does not answer a heartbeat.
+            # A kernel does not answer a heartbeat while it starts.
             client.kernel_info(reply=True, timeout=30)
             client.wait_for_ready(timeout=30)
             client.execute(code)

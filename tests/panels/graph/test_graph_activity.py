@@ -107,7 +107,7 @@ def test_nodes_that_are_not_connected() -> None:
 
 
 def test_a_publisher_that_does_not_report_counts() -> None:
-    """If a node does not count its messages, the panel shows no rate and no error."""
+    """If a publisher does not report its message counts, the panel shows no rate and no error."""
     wall = Wall()
     wall.model.count(Activity(0.0, silent=frozenset({"/talker"})))
     assert wall.now["notes"]["topic /chatter"] == "not counted"
@@ -161,7 +161,7 @@ CALLERS = {
 
 
 def test_callers_are_listed_and_ended_callers_are_marked() -> None:
-    """Callers are listed with the latest caller first, and callers that have ended are marked."""
+    """The latest caller is first in the list of callers, and callers that have ended are marked."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert wall.now["callers"]["service /robot/ask"] == [

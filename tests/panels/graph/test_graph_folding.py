@@ -180,7 +180,7 @@ def test_frame_and_box_are_one_button_in_two_states() -> None:
 
 
 def said() -> tuple[GraphModel, list[dict[str, object]]]:
-    """Return a model, and the list to which the model adds its messages."""
+    """Return a model, and the list of the messages that the model sends."""
     heard: list[dict[str, object]] = []
     return GraphModel(lambda **parts: heard.append(parts)), heard
 

@@ -138,7 +138,7 @@ def test_a_name_cannot_bring_markup_into_the_page() -> None:
 
 
 class Wall:
-    """A model and the messages that the model sends."""
+    """A model, and the list of the messages that the model sends."""
 
     def __init__(self, **options: str) -> None:
         self.said: list[dict[str, Plain]] = []

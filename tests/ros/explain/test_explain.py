@@ -78,7 +78,7 @@ PASTED = {
 
 @pytest.mark.parametrize(("text", "stretch"), PASTED.items(), ids=range(len(PASTED)))
 def test_pasted_text_is_explained(text: str, stretch: str) -> None:
-    """In a pasted text, such as a log, explain() explains the last error."""
+    """If a pasted text, such as a log, contains several errors, explain() explains the last error."""
     found = explain(text)
     assert found.known
     assert stretch in found.cause
@@ -178,7 +178,7 @@ def test_each_row_names_an_existing_chapter() -> None:
 
 @pytest.mark.parametrize(("message", "part"), MESSAGES.items(), ids=range(len(MESSAGES)))
 def test_each_error_has_its_own_explanation(message: str, part: str) -> None:
-    """Each error of a call has a separate explanation."""
+    """Each error that a call can raise has a separate explanation."""
     explanation = known(message)
     assert explanation is not None
     assert part in explanation.cause

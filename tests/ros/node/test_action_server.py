@@ -1,4 +1,4 @@
-"""Tests of action servers: what happens if a cell runs again, and after stop()."""
+"""Tests of action servers in a cell that runs again, and after stop()."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_a_goal_is_executed(joined: Kernel) -> None:
 
 
 def test_serving_again_replaces(joined: Kernel, master: PrivateMaster) -> None:
-    """After the cell runs again, only the new function executes goals."""
+    """If the cell runs again, only the new function executes goals."""
     joined.run('server = ActionServer("/fetch", FetchAction, returning(1))')
     joined.run('server = ActionServer("/fetch", FetchAction, returning(2))')
     assert joined.run("result = [asked(), asked()]") == [2, 2]

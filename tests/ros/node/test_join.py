@@ -84,7 +84,7 @@ def test_silent_program_at_the_uri() -> None:
 
 
 def test_another_program_at_the_uri(tmp_path: Path) -> None:
-    """If a web server is at the address, join() says that this program is not a master."""
+    """If a web server is at the address, the error of join() says that no master is at this address."""
     command = [sys.executable, "-u", "-m", "http.server", "-b", "127.0.0.1", "0"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=tmp_path) as web:
         assert web.stdout is not None
@@ -188,7 +188,7 @@ def test_private_master_killed() -> None:
 
 
 def test_shared_master_restarted() -> None:
-    """If a shared master was restarted, another join() registers the services and topics again."""
+    """If a shared master was restarted, a second join() registers the services and topics again."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
@@ -250,7 +250,7 @@ def test_exit_while_the_master_is_stopped() -> None:
 
 
 def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
-    """After leave(), a kernel can call join() again and offer services."""
+    """After leave(), a kernel can call join() again, and can then offer services."""
     kernel.run(
         JOIN
         + """

@@ -97,7 +97,7 @@ def times_out(kernel: Kernel, name: str) -> str:
 
 @pytest.mark.parametrize("name", ["/raw/sleeps", "/raw/exits"])
 def test_handler_that_never_answers(joined: Kernel, raw: NodeProcess, name: str) -> None:
-    """If the handler never returns, the call times out, and other calls work."""
+    """If the handler never returns, the call times out, and calls of other services work."""
     assert "its handler is still working" in times_out(joined, name)
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
@@ -183,7 +183,7 @@ def test_interrupt_of_a_call(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
-    """A persistent proxy connects to the new server after its server was replaced."""
+    """If the server of a service is replaced, a persistent proxy connects to the new server."""
     joined.run(
         "from std_srvs.srv import Trigger; proxy = BoundedProxy('/raw/well', Trigger, persistent=True)"
     )
@@ -218,7 +218,7 @@ def switching_often() -> Iterator[None]:
 
 
 def watching() -> list[threading.Thread]:
-    """Return all watchdog threads of this process."""
+    """Return all threads of this process that belong to a watchdog."""
     return [thread for thread in threading.enumerate() if thread.name == "call-watchdog"]
 
 

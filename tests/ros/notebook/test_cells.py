@@ -1,4 +1,4 @@
-"""Tests that run cells with plain rospy again."""
+"""Tests of cells that run again and that create services, topics or timers with plain rospy."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def test_publisher_and_subscriber_leave_the_graph(notebook: NotebookKernel, mast
 
 
 def test_timer_cell_runs_again(notebook: NotebookKernel) -> None:
-    """Only the timer of the last run calls its callback."""
+    """After a second run of the cell, only the new timer calls its callback."""
     for number in (1, 2):
         notebook.run(
             f"calls = []\ntimer = rospy.Timer(rospy.Duration(0.01), lambda _: calls.append({number}))",
@@ -215,9 +215,9 @@ def test_init_node_after_join(notebook: NotebookKernel) -> None:
 
 
 def test_cell_that_runs_again_without_a_master() -> None:
-    """A cell can run again even if there is no master.
+    """If there is no master, a cell that offers a service can still run again.
 
-    After a new master has started, the service of the cell works again.
+    After a new master has started, the cell's service works again.
     """
     with PrivateMaster() as master, NotebookKernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run("import rospy\nfrom std_srvs.srv import Trigger\nfrom course_pkg import join")

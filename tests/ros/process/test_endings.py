@@ -38,12 +38,12 @@ def family(pid: int) -> list[int]:
 
 
 def gone(pids: list[int]) -> bool:
-    """Return whether all these processes have exited. A zombie counts as exited."""
+    """Return whether all processes in `pids` have exited. A zombie counts as exited."""
     return all(process_state(pid) == "Z" for pid in pids)
 
 
 def port_is_free(uri: str) -> bool:
-    """Return whether no process listens on the port of this address."""
+    """Return whether no process listens on the port of the address `uri`."""
     with socket.socket() as probe:
         return probe.connect_ex(("127.0.0.1", int(uri.rstrip("/").rpartition(":")[2]))) != 0
 
@@ -241,7 +241,7 @@ def test_stopped_node_is_ended(master: PrivateMaster) -> None:
 
 
 def test_everything_listens_on_loopback_only(kernel: Kernel) -> None:
-    """All sockets of a kernel, its master and its nodes listen only on 127.0.0.1."""
+    """A kernel, its master and its nodes listen only on 127.0.0.1."""
     kernel.run(EVERYTHING)
     ports = listening_ports(kernel.pid)
     assert len(ports) >= 7

@@ -59,7 +59,7 @@ def test_port_of_a_killed_master_is_free(master: PrivateMaster) -> None:
 
 
 def test_the_master_of_ros_master_uri_is_used(master: PrivateMaster) -> None:
-    """If ROS_MASTER_URI is set, find_or_start_master() returns this master."""
+    """If ROS_MASTER_URI is set, find_or_start_master() returns the master at this address."""
     assert find_or_start_master().uri == master.uri
 
 

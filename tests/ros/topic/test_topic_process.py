@@ -142,7 +142,7 @@ def test_a_timer_skips_late_ticks() -> None:
 
 
 def test_a_failing_timer_reports_the_error() -> None:
-    """If the timer's function raises an error, the timer passes the error to its owner."""
+    """If the timer's function raises an error, the timer passes the error to the callback for errors."""
     errors: list[Exception] = []
 
     def tick() -> None:
@@ -354,7 +354,7 @@ def test_end_removes_the_process_and_its_registrations(reports: Reports, master:
 
 
 def test_a_killed_process_is_reported(reports: Reports, master: PrivateMaster) -> None:
-    """If the process is killed, its owner gets an error message and unregisters the node."""
+    """If the topic process is killed, its parent process reports an error and unregisters the node."""
     os.kill(reports.process.pid, signal.SIGKILL)
     assert "The panel's node has ended." in eventually(lambda: reports.lost)
     assert look(master.uri).nodes == ()
@@ -385,7 +385,7 @@ def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel
 
 
 def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
-    """After SIGKILL of its owner, the process exits and is unregistered."""
+    """If the parent process of the topic process is killed, the topic process exits and is unregistered."""
     pid = kernel.run("""
         from course_pkg.ros.topic.topic_process import TopicProcess
         reports = []
@@ -401,7 +401,7 @@ def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
 
 
 def test_it_waits_for_a_master_and_registers_again(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Without a master, the process reports the reason, and later registers at a new master."""
+    """Without a master, the topic process reports the reason, and registers when a master has started."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros")))
         patch.setenv("ROS_HOSTNAME", "localhost")

@@ -120,7 +120,7 @@ def test_a_callback_of_an_unknown_message() -> None:
 
 
 def test_events_outside_of_the_recording() -> None:
-    """Events before and after the recording are left out.
+    """Events that lie before or after the recorded time are left out.
 
     If an event has not ended when the recording ends, its end is None.
     """

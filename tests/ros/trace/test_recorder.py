@@ -23,7 +23,7 @@ def test_the_number_of_stored_spans_is_bounded() -> None:
 
 
 def test_a_memory_that_is_not_full_is_complete() -> None:
-    """If the recorder has deleted no span, its record is complete."""
+    """As long as the recorder has deleted no span, its record is complete."""
     recorder = Recorder(size=3)
     recorder.end(recorder.begin("publish", "/x", "", []))
     assert recorder.since(0.0)["complete_from"] == 0.0
