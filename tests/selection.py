@@ -159,7 +159,7 @@ def digest_of(group: str) -> str:
 def _packages_below(folder: str) -> list[str]:
     """Return the packages on which the folder tests/`folder` depends.
 
-    These are the packages in the import layer of course_pkg/`folder`, and in all lower layers.
+    The result contains the packages in the import layer of course_pkg/`folder` and in all lower layers.
 
     If no package has the name of the folder, return all packages.
     """

@@ -101,7 +101,7 @@ def lab(tmp_path: Path) -> Iterator[Lab]:
 
 
 def test_numbers_of_cases_do_not_reveal_the_fault() -> None:
-    """The numbers of the cases are not in the order of the catalogue."""
+    """The order of the case numbers is different from the order of the faults in the catalogue."""
     everything = cases()
     assert [case.number for case in everything] == list(range(1, len(everything) + 1))
     assert [case.fault for case in everything] != list(every_fault())

@@ -45,7 +45,7 @@ def nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("kind", [GraphPanel, ServicePanel, TypeBrowser], ids=lambda kind: kind.__name__)
 def test_a_graph_that_cannot_be_read_is_explained(nowhere: None, kind: type[Panel]) -> None:
-    """The panel shows the error message and an explanation."""
+    """If a panel cannot read the graph, it shows the error message and an explanation."""
     panel = kind()
     assert "No ROS master" in panel.trouble
     assert panel.explained["cause"].startswith("No master answers")
@@ -114,7 +114,7 @@ class Polled:
 
 @pytest.fixture
 def polled() -> Iterator[Polled]:
-    """Yield a polled value, and stop its poller after the test."""
+    """Yield a Polled object, and stop its poller after the test."""
     polled = Polled()
     yield polled
     polled.poller.stop()

@@ -269,7 +269,7 @@ def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(harness
 
 
 def test_recording_keeps_request_and_outcome(harness: Harness) -> None:
-    """record() calls the service with each request, and stores the requests and the outcomes."""
+    """record() calls the service with each request, and stores each request and its outcome."""
     kept = harness.model.record([{"length": 1.2, "width": 5.2, "height": 8.9}, {}], "5")
     assert [each["draft"]["length"] for each in kept] == ["1.2", "0.0"]
     assert [each["outcome"]["rows"][0]["text"] for each in kept] == ["6.24", "0.0"]

@@ -170,7 +170,7 @@ def _traits(panel: object) -> State:
 
 @pytest.fixture(autouse=True)
 def _own_records(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Use an empty state folder."""
+    """Select an empty state folder for each test."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
 
 

@@ -62,7 +62,7 @@ def test_an_invalid_name_is_refused(name: str) -> None:
 
 
 def test_a_topic_without_a_type_waits_for_one() -> None:
-    """The panel uses the type of a publisher, not the type of a subscriber."""
+    """A panel without a type uses the type of a publisher, and not the type of a subscriber."""
     process = FakeProcess(None)
     assert "No node publishes /speed yet" in process.state["about"]["problem"]
     process.model.see({**EMPTY, "subscribers": [{"node": "/listener", "type": "*"}]})
@@ -244,8 +244,8 @@ def test_the_sentence_about_a_message(change: PublisherReport, words: str) -> No
 def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connections:
     """Return the connections of a topic with at most one publisher and one subscriber.
 
-    `publisher` and `subscriber` are the types of the two nodes; "" means that there is no such node. If `md5`
-    is not empty, the panel is connected to the publisher, whose type has this MD5 sum.
+    `publisher` is the type of the publisher, and `subscriber` is that of the subscriber; "" means no such
+    node. If `md5` is not empty, the panel is connected to the publisher, whose type has this MD5 sum.
     """
     sources = [{"node": "/talker", "type": publisher, "md5": md5}] if md5 else []
     publishers = [{"node": "/talker", "type": publisher}] if publisher else []

@@ -49,13 +49,13 @@ def test_the_usual_pen_until_more_is_known() -> None:
 
 
 def test_a_colour_that_is_read_twice_at_low_speed_is_the_pen_colour() -> None:
-    """A colour that the sensor reads twice is the pen colour."""
+    """If the sensor of a slow turtle reads a colour twice, the recording uses it as the pen colour."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, RED), at(3.2, RED), at(3.3, RED))
     assert [recording.palette[row[5]] for row in recording.rows[-2:]] == [RED, RED]
 
 
 def test_a_crossed_line_does_not_change_the_pen() -> None:
-    """A single pose with another colour does not change the pen colour."""
+    """If only a single pose has another colour, the pen colour does not change."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, RED), at(3.3, USUAL))
     assert {row[5] for row in recording.rows[1:]} == {recording.palette.index(USUAL)}
 

@@ -123,7 +123,7 @@ def titles(*conversations: RelayedConnection, kind: ServiceType | None = GEOMETR
 
 
 def unknown(name: str) -> ServiceType:
-    """Raise the error for an unknown type."""
+    """Raise UnknownType for the type `name`."""
     raise UnknownType(name, f"there is no {name}")
 
 
@@ -165,7 +165,7 @@ def test_bytes_that_were_cut_off_are_still_shown(cut: int) -> None:
 
 @pytest.mark.parametrize("seed", range(20))
 def test_any_bytes_are_shown(seed: int) -> None:
-    """Random bytes cause no error."""
+    """The wire view can show random bytes without an error."""
     data = random.Random(seed).randbytes(300)  # noqa: S311 -- no secrets
     kind = compile_message("x/Everything", EVERYTHING)
     for pieces in (header_pieces(data), request_pieces(data, kind), reply_pieces(data, kind)):

@@ -367,7 +367,7 @@ CommandFolders.run = lambda *_, **__: {"status": 0, "out": "", "err": "", "took"
 
 
 def test_without_bubblewrap_grading_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without bubblewrap, require_sandbox() raises an error with advice."""
+    """Without bubblewrap, require_sandbox() raises an error that contains advice."""
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(
         bubblewrap.SandboxUnavailable, match=r"apt-get install bubblewrap.*--unsafe-no-sandbox"

@@ -33,7 +33,7 @@ def test_an_empty_cache_needs_libraries_and_workspace(tmp_path: Path) -> None:
 
 
 def test_a_tool_that_fails_is_shown_by_its_last_lines_and_its_log(journal: Journal) -> None:
-    """The error message contains the exit status, the last lines of output, and the path of the log."""
+    """If a tool fails, the error message contains the exit status, the last output, and the log's path."""
     with pytest.raises(SetupError, match=r"status 3:\n  first\n  last\nThe whole output: .*setup-.*log"):
         journal.run(["sh", "-c", "echo first; echo last; exit 3"])
 
@@ -64,7 +64,7 @@ def test_a_full_disk_is_reported_without_a_message_from_the_tool(
 def test_the_set_up_waits_for_another_package_manager(
     words: str, journal: Journal, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """While another program holds the lock, the set-up repeats the command and prints a message."""
+    """While another program holds the lock of apt, the set-up repeats the command and prints a message."""
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     said: list[str] = []
     held = f"[ $(wc -l < {tmp_path}/tries) -gt 2 ] || {{ echo '{words}'; exit 100; }}"
@@ -88,7 +88,7 @@ def test_missing_packages_are_listed() -> None:
 
 
 def test_without_root_and_sudo_the_message_contains_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A user without sudo gets an error message with the whole command."""
+    """A user without sudo gets an error message that contains the whole installation command."""
     monkeypatch.setattr("os.geteuid", lambda: 1000)
     monkeypatch.setattr("shutil.which", lambda _: None)
     with pytest.raises(SetupError, match=r"apt-get install --no-install-recommends rosbash catkin"):

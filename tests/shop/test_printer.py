@@ -23,7 +23,7 @@ def test_a_printer_without_paper_prints_nothing() -> None:
 
 
 def test_a_printer_jams_when_two_lines_come_at_once() -> None:
-    """If several threads print at once, `lines` contains only the lines of the successful calls."""
+    """If several threads print at the same time, `lines` contains only the lines of successful calls."""
     printer = Printer()
     with ThreadPoolExecutor(8) as pool:
         futures = [pool.submit(printer.print, str(number)) for number in range(8)]

@@ -40,6 +40,6 @@ def shown(*outputs: Output) -> Body:
 
 
 def result(**data: Plain) -> Output:
-    """Return a cell's result. `text_html="…"` is the data for the MIME type text/html."""
+    """Return a cell's result. The argument `text_html="…"` sets the data for the MIME type text/html."""
     kinds = {name.replace("_", "/", 1): value for name, value in data.items()}
     return {"output_type": "execute_result", "execution_count": 1, "metadata": {}, "data": kinds}

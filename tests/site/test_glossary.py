@@ -36,7 +36,7 @@ def test_every_entry_is_a_sentence() -> None:
 
 
 def test_no_two_entries_share_an_anchor() -> None:
-    """All entries have different anchors."""
+    """All entries of the glossary have different anchors."""
     anchors = [entry.anchor for entry in Glossary.of([]).entries]
     assert len(set(anchors)) == len(anchors)
 

@@ -15,7 +15,7 @@ from tests.browser.pages import picture
 from tests.support import usual
 
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
-# These rules are added to axe-core's default rules.
+# RULES contains rules that are added to axe-core's default rules.
 RULES = {name: {"enabled": True} for name in ("target-size", "label-content-name-mismatch")}
 # A page is not allowed to fetch files, so axe-core cannot preload files.
 OPTIONS = {"rules": RULES, "preload": False}
@@ -89,7 +89,7 @@ def test_axe_finds_no_problem(
 ) -> None:
     """axe-core finds no problem on any page, with and without the search dialog.
 
-    `tests.bench.site axe` checks every rule with every width and theme.
+    The program `tests.bench.site axe` checks every rule with every width and theme.
     """
     names = ENOUGH if (width, colours) == (390, "dark") else [*pages(course), *pages(panels)]
     assert problems(browser, [course, panels], width, colours, names) == {}
@@ -192,7 +192,7 @@ def test_the_turtles_can_be_replayed(browser: Browser, panels: Path) -> None:
 
 
 def test_the_graph_can_be_replayed(browser: Browser, panels: Path) -> None:
-    """The key Home moves the slider to the beginning of the recording."""
+    """In the recording of a graph, the key Home moves the slider to the beginning."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         graph = page.get_by_role("region", name="Graph panel")
@@ -216,7 +216,7 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
 
 
 def test_a_search_without_results_shows_a_message(browser: Browser, course: Path) -> None:
-    """The message contains the search term, and Escape closes the search dialog."""
+    """For a search without results, the message contains the search term; Escape closes the dialog."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()

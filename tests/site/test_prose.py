@@ -72,6 +72,6 @@ def test_other_dollar_signs_stay_text(text: str) -> None:
 
 
 def test_an_invalid_formula_is_refused() -> None:
-    """The error message contains the invalid formula."""
+    """The error message for an invalid formula contains the formula."""
     with pytest.raises(SiteError, match=r"The formula \$2\^2\^2\$ cannot be read"):
         prose()("so $2^2^2$")

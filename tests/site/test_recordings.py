@@ -67,7 +67,7 @@ def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) 
 
 
 def test_a_panel_is_shown_for_a_while() -> None:
-    """With `watch`, the panel is shown for some time and then hidden."""
+    """If the recording plan contains `watch`, the panel is shown for some time and then hidden."""
     panel = Noted()
     record_panel(panel, {"watch": 0, "calls": [["/switch/report", "std_srvs/Trigger", {}]]})
     assert panel.done == ["shown", "hidden"]

@@ -108,7 +108,7 @@ def test_an_unknown_turtle_cannot_be_killed(client: Kernel, simulator: NodeProce
 
 
 def test_an_illegal_name(client: Kernel) -> None:
-    """The error message contains the invalid character and its position."""
+    """The error message for an invalid turtle name contains the invalid character and its position."""
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'my turtle')")
     assert "Character [ ] at element [2] is not valid in Graph Resource Name [my turtle]" in said
     assert not [topic for topic in look().topics if topic.name.startswith("/my")]
@@ -181,7 +181,7 @@ def test_reset_brings_a_killed_first_turtle_back(client: Kernel) -> None:
     ],
 )
 def test_numbers_that_are_not_finite_are_refused(client: Kernel, name: str, kind: str, values: str) -> None:
-    """A call with NaN or infinity fails, and turtle1 does not move."""
+    """If a number in a call is NaN or infinity, the call fails, and turtle1 does not move."""
     said = client.run(f"result = words('{name}', {kind}, {values})")
     assert "not finite" in said
     assert client.run("result = round(pose().x, 3)") == 5.544
@@ -207,7 +207,7 @@ def test_two_simulators_side_by_side(master: PrivateMaster, simulator: NodeProce
 
 
 def test_an_invalid_background_colour_is_ignored(client: Kernel) -> None:
-    """If a colour parameter is not a number, /clear uses the default colour."""
+    """If a parameter of the background colour is not a number, /clear uses the default colour."""
     terminal("rosparam", "set", "/turtlesim/background_r", "blue")
     assert "ERROR" not in terminal("rosservice", "call", "/clear")
     seen = client.run(

@@ -224,7 +224,7 @@ def test_fill_colours_all_pixels() -> None:
 
 
 def test_the_widest_line_fits_into_a_tick() -> None:
-    """Drawing the widest line takes less CPU time than a tick of 16 ms."""
+    """A tick takes 16 ms, and drawing the widest line takes less CPU time than a tick."""
     canvas = Canvas(GROUND)
     took = []
     for _ in range(5):

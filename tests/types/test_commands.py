@@ -66,7 +66,7 @@ def test_bash_passes_the_same_arguments() -> None:
 
 
 def test_values_that_do_not_fit_make_no_command() -> None:
-    """For a value that does not fit the type, there is no command."""
+    """If a value does not fit the type of its field, rosservice_line() raises a FieldError."""
     with pytest.raises(FieldError, match="length"):
         rosservice_line("/x", service_type("course_pkg/geometry"), {"length": 1e39, "width": 1, "height": 1})
 

@@ -59,7 +59,7 @@ def test_a_class_gives_the_same_type_as_its_name() -> None:
 
 
 def test_a_package_that_is_not_built_is_read_from_its_text(packages: Path) -> None:
-    """If a type is not built, the class is made from the type's text."""
+    """If a type is not built, its class is made from the text of its definition."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     assert not kind.built

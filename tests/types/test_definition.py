@@ -69,7 +69,7 @@ def refused(text: str) -> BrokenDefinition:
     ],
 )
 def test_mistake_has_its_place_and_remedy(text: str, line: int, column: int, remedy: str) -> None:
-    """The error message contains the line and column of the mistake, and how to correct it."""
+    """The error message says at which line and column the mistake is, and how to correct it."""
     error = refused(text)
     assert (error.line, error.column) == (line, column), error
     assert remedy in error.remedy

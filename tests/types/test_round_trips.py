@@ -64,7 +64,7 @@ def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.Mo
 
 
 def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyPatch) -> genpy.Message:
-    """Return the request that rosservice makes from a command."""
+    """Return the request that rosservice makes from a shell command."""
     given: list[list[Plain]] = []
 
     def catch(_name: str, arguments: list[Plain], **_options: object) -> None:

@@ -23,7 +23,7 @@ def described() -> tuple[MessageSchema, dict[str, FieldSchema]]:
 
 
 def test_request_and_response_are_described() -> None:
-    """A service has a name, an MD5 sum, a request and a response."""
+    """The description of a service has a name, an MD5 sum, a request and a response."""
     kind = service_type("course_pkg/geometry")
     whole = schema(kind)
     assert (whole["name"], whole["md5"]) == (kind.name, kind.md5)

@@ -107,7 +107,7 @@ def test_notations_that_can_be_typed(type_name: str, text: object, value: object
     ],
 )
 def test_error_about_an_invalid_string(type_name: str, text: str, words: str) -> None:
-    """The error message contains the field, the mistake and the allowed values."""
+    """The error message for an invalid string contains the field, the mistake and the allowed values."""
     assert words in str(refused(type_name, text))
 
 

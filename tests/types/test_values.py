@@ -137,7 +137,7 @@ def test_messages_and_times_may_be_given_as_such(mixed: MessageType) -> None:
 
 
 def test_errors_name_the_path(refusal: Callable[..., FieldError]) -> None:
-    """The error for a nested value contains the element's index and the field's name."""
+    """The error for a nested value contains the index of the element and the name of the field."""
     points = [{"x": 0.0, "y": 0.0, "z": 0.0}, {"x": 0.0, "y": 0.0, "z": "high"}]
     assert refusal(points=points).field == "points[1].z"
     assert refusal(data=[0, 256]).field == "data[1]"
@@ -151,7 +151,7 @@ def test_a_fixed_array_wants_its_length(refusal: Callable[..., FieldError]) -> N
 
 
 def test_missing_and_unknown_fields_are_named(mixed: MessageType) -> None:
-    """The error message for a misspelt field contains this field and the most similar field."""
+    """The error message for a misspelt field contains its name, and the name of the most similar field."""
     values = mixed.default()
     del values["f32"]
     with pytest.raises(FieldError, match="f32: this field is missing"):

@@ -18,7 +18,7 @@ def test_nothing_is_missing_in_the_environment_of_the_course() -> None:
 
 
 def test_a_missing_compiler_is_named_with_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The error message contains the missing compiler, and the command that installs it."""
+    """The error message about a missing compiler contains the command that installs a compiler."""
     monkeypatch.setenv("CXX", "/nowhere/c++")
     words = missing_for_cpp()
     assert words.startswith("No C++ compiler is installed (/nowhere/c++).")

@@ -217,7 +217,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_mistake_in_a_package_is_explained(
     workspace: Path, files: dict[str, str], place: str, words: str
 ) -> None:
-    """The explanation contains the position, the problem and advice."""
+    """For each mistake in a package, the explanation contains the position, the problem and advice."""
     write(workspace, files)
     _, printed = build(workspace)
     fault = explain(printed)
@@ -276,7 +276,7 @@ SAID = {
 
 @pytest.mark.parametrize(("line", "sourced", "words"), usual(5, SAID))
 def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourced: bool, words: str) -> None:
-    """A wrong import, a missing shebang or a wrong command is explained."""
+    """The course explains a wrong import, a missing shebang and a wrong command."""
     scripts = {"plain": 'print("hello")\n', "shell": 'print("hello")\n'}
     scripts["windows"] = "#!/usr/bin/env python3\r\nprint(1)\r\n"
     write(workspace, {**GOOD, **{f"scripts/{name}.py": text for name, text in scripts.items()}})

@@ -23,7 +23,10 @@ SERVICES = (
 
 
 def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot:
-    """Return a snapshot of the graph. The node `dead` is registered, but its process does not run."""
+    """Return a snapshot of a graph with four nodes.
+
+    The node `dead` is registered, but its process does not run.
+    """
     names = ("/client", "/listener", "/server", "/talker")
     nodes = tuple(
         NodeSeen(name, "http://localhost:1/", "refused" if name == dead else "answered") for name in names
@@ -175,7 +178,7 @@ def test_callers_are_listed_and_ended_callers_are_marked() -> None:
 
 
 def test_a_killed_caller_is_gone() -> None:
-    """A caller whose process was killed is marked."""
+    """A caller whose process was killed is marked as gone."""
     wall = Wall(graph(dead="/client"))
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert [each["gone"] for each in wall.now["callers"]["service /robot/ask"]] == [True, True]
@@ -225,7 +228,7 @@ def test_the_details_contain_the_fields_of_a_type() -> None:
 
 @pytest.mark.parametrize("kind", ["nowhere/Thing", "nonsense", ""])
 def test_a_type_that_is_not_here(kind: str) -> None:
-    """The details of an unknown type cause no error."""
+    """If the type of a topic is unknown, the topic's details cause no error."""
     wall = Wall(graph(topics=(TopicSeen("/t", kind, ("/talker",), ()),)))
     facts = dict(next(each for each in wall.said[-1]["facts"] if each["key"] == "topic /t")["facts"])
     assert facts.get("fields", "").startswith("nowhere/Thing: no message type" if "/" in kind else "")
@@ -248,7 +251,7 @@ def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
 def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) -> RateMeter:
     """Return a rate meter that has read the message count of a steady publisher every 2 s.
 
-    Each reading is up to `late` s late.
+    Each reading is at most `late` s late.
     """
     meter, chance = RateMeter(), random.Random(seed)  # noqa: S311 - a test's own dice
     for turn in range(int(seconds / 2) + 1):
@@ -258,7 +261,7 @@ def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) ->
 
 @pytest.mark.parametrize("rate", [0.2, 0.5, 1, 5, 10, 15, 62, 100, 1000])
 def test_a_steady_rate_is_found_and_does_not_change(rate: float) -> None:
-    """After 30 s, the panel shows the rate of the publisher."""
+    """After 30 s, the meter's rate is the rate of the publisher, and does not change."""
     seen = {counted(rate, seconds, late=0.03).rate for seconds in range(34, 60, 2)}
     assert len(seen) == 1
     assert seen.pop() == pytest.approx(rate, rel=0.06 if rate > 1 else 0.2)
@@ -325,7 +328,7 @@ def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, show
     ],
 )
 def test_a_rate_as_text(rate: float, shown: str) -> None:
-    """The rate has a unit and at most 12 characters."""
+    """A rate as text has a unit, and at most 12 characters."""
     assert rate_text(rate) == shown
     assert len(shown) <= 12
 

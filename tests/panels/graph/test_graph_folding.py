@@ -168,7 +168,7 @@ def test_a_wide_drawing_is_turned_upright() -> None:
 
 
 def test_frame_and_box_are_one_button_in_two_states() -> None:
-    """A frame and its folded box have the same key, so that the keyboard focus does not change."""
+    """A frame and its folded box have the same `data-key`, so that the keyboard focus does not change."""
     for fold, state in ((False, "true"), (True, "false")):
         root = ElementTree.fromstring(svg(laid_out(folded(picture(TURTLE), {"/turtle1/": fold}))))  # noqa: S314 - our own
         button = next(each for each in root.iter(f"{SVG}g") if each.get("data-key") == "namespace /turtle1/")

@@ -149,7 +149,7 @@ def test_moments_and_their_scenes() -> None:
 
 
 def test_moments_stay_in_order_if_the_clock_is_set_back() -> None:
-    """The entries of a recording are in the order of their times."""
+    """If the clock is set back, the entries of a recording are still in the order of their times."""
     history = filled(shown("a"), shown("b"))
     history.add(BEGAN - 3600, *shown("c"))
     assert [moment[0] for moment in history.state(BEGAN - 3600)["moments"]] == [0, 1000, 1000]
@@ -177,7 +177,7 @@ def test_the_number_of_moments_is_limited() -> None:
 
 
 def test_the_size_of_a_recording_is_limited() -> None:
-    """If the drawings of a recording are too large together, the oldest drawings are removed."""
+    """If all drawings together are larger than the limit, the oldest drawings are removed."""
     kept = filled(*(shown(f"{turn:020000}") for turn in range(40)))
     state = kept.state(BEGAN + 40)
     assert len(json.dumps(state)) < 1.1 * BYTES

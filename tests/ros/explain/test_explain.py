@@ -169,7 +169,7 @@ def test_an_explanation_in_a_notebook() -> None:
 
 
 def test_each_row_names_an_existing_chapter() -> None:
-    """Each row of the table names an existing chapter."""
+    """Each row of the table of explanations names an existing chapter."""
     for pattern, cause, remedy, chapter in TABLE:
         assert chapter in CHAPTERS, pattern
         assert cause.endswith("."), pattern

@@ -61,7 +61,7 @@ def test_malformed_uri(uri: str) -> None:
 
 
 def test_no_program_at_the_uri() -> None:
-    """If no master is at the address, join() raises an error.
+    """If no master is at the address in ROS_MASTER_URI, join() raises an error.
 
     After ROS_MASTER_URI was removed, join() works.
     """
@@ -74,7 +74,7 @@ def test_no_program_at_the_uri() -> None:
 
 
 def test_silent_program_at_the_uri() -> None:
-    """If the program at the address sends nothing, join() raises an error within 4 s."""
+    """If the program at ROS_MASTER_URI sends nothing, join() raises an error within 4 s."""
     with socket.create_server(("127.0.0.1", 0)) as mute, Kernel() as kernel:
         uri = f"http://localhost:{mute.getsockname()[1]}"
         kernel.run(f"import os; os.environ['ROS_MASTER_URI'] = {uri!r}; from course_pkg.ros import join")

@@ -223,7 +223,7 @@ def watching() -> list[threading.Thread]:
 
 
 def test_an_action_is_repeated_until_it_is_disarmed() -> None:
-    """After its deadline, an action runs repeatedly until disarm() is called."""
+    """After its deadline, an action of the watchdog runs repeatedly until disarm() is called."""
     guard, done = Watchdog(), list[float]()
     number = guard.arm(time.monotonic(), lambda: done.append(time.monotonic()))
     eventually(lambda: len(done) >= 3)
@@ -257,7 +257,7 @@ def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch
 
 
 def test_no_deadline_is_missed_when_the_thread_ends_and_starts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An action is called in time, even if the watchdog's thread ends at the same moment."""
+    """An action of the watchdog is called in time, even if the watchdog's thread ends at the same moment."""
     monkeypatch.setattr(watchdog, "LINGER", 0.0005)
     guard, missed = Watchdog(), list[int]()
 

@@ -198,7 +198,7 @@ def test_cell_within_a_cell(notebook: NotebookKernel) -> None:
 
 
 def test_join_again_keeps_the_nodes_own_services(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """After another join(), /rosout and the logger services stay registered."""
+    """If join() is called again, /rosout and the logger services stay registered."""
     for _ in range(2):
         silent(notebook.run("node = join('student')", "join"))
     state = MasterClient(master.uri).system_state()

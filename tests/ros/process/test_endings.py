@@ -1,4 +1,4 @@
-"""Tests that every started process ends with its owner."""
+"""Tests that every started process ends when the process that started it ends."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ while True:
 
 
 def test_node_that_ignores_signals_on_a_shared_master(master: PrivateMaster) -> None:
-    """A node that ignores SIGTERM is killed and unregistered after its owner has exited."""
+    """A node that ignores SIGTERM is killed and unregistered after the kernel that started it has exited."""
     kernel = Kernel()
     kernel.run(f"""
 import sys
@@ -115,7 +115,7 @@ def test_normal_end_leaves_nothing(master: PrivateMaster) -> None:
 
 
 def test_interrupt_does_not_end_the_nodes(kernel: Kernel) -> None:
-    """An interrupt of the kernel does not reach its nodes."""
+    """If the kernel is interrupted, its nodes do not receive the interrupt."""
     kernel.run(
         "from course_pkg.ros import join; node = join('owner'); server = node.run('course_pkg', 'server')"
     )

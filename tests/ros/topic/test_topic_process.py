@@ -81,7 +81,7 @@ def test_rate_of_recent_messages() -> None:
 
 
 def test_rate_of_rare_and_of_frequent_messages() -> None:
-    """The rate works for one message per 10 s and for 10,000 messages per second."""
+    """The rate is right for one message per 10 s, and for 10,000 messages per second."""
     slow, fast = RateStatistics(), RateStatistics()
     for number in range(10):
         slow.beat(10.0 * number)
@@ -107,7 +107,7 @@ def test_a_curve_keeps_extreme_values() -> None:
 
 
 def test_a_curve_counts_invalid_numbers() -> None:
-    """NaN and infinity are counted, but not stored."""
+    """The curve counts NaN and infinity, but does not store them."""
     curve = DownsampledSeries()
     for value in (1.0, float("nan"), float("inf")):
         curve.add(0.0, value)
@@ -246,7 +246,7 @@ def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
 
 
 def test_a_first_message_is_lost_and_a_second_is_reported(reports: Reports) -> None:
-    """`unheard` counts the message without a connected subscriber; the next message is received."""
+    """`unheard` counts the first message, which has no connected subscriber; the second one is received."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1.5")
     eventually(lambda: reports.published("deliveries"))
@@ -316,7 +316,7 @@ def test_an_invalid_command_is_reported_and_the_process_continues(reports: Repor
 
 
 def test_messages_of_another_type_are_reported_without_values(reports: Reports, kernel: Kernel) -> None:
-    """A message of another type is reported without values."""
+    """The topic process reports a message of another type without its values."""
     reports.process.tell("type", **NUMBER)
     kernel.run("""
         import rospy
@@ -354,7 +354,7 @@ def test_end_removes_the_process_and_its_registrations(reports: Reports, master:
 
 
 def test_a_killed_process_is_reported(reports: Reports, master: PrivateMaster) -> None:
-    """If the topic process is killed, its parent process reports an error and unregisters the node."""
+    """If the topic process is killed, TopicProcess reports an error and unregisters the node."""
     os.kill(reports.process.pid, signal.SIGKILL)
     assert "The panel's node has ended." in eventually(lambda: reports.lost)
     assert look(master.uri).nodes == ()
@@ -362,7 +362,7 @@ def test_a_killed_process_is_reported(reports: Reports, master: PrivateMaster) -
 
 
 def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) -> None:
-    """end() kills a suspended process (SIGSTOP) and unregisters its node."""
+    """end() kills a topic process that is suspended with SIGSTOP, and unregisters its node."""
     eventually(lambda: reports.parts.get("node"))
     with stopped(reports.process.pid):
         for _ in range(100):
@@ -385,7 +385,7 @@ def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel
 
 
 def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
-    """If the parent process of the topic process is killed, the topic process exits and is unregistered."""
+    """If the process that started it is killed, the topic process exits and is unregistered."""
     pid = kernel.run("""
         from course_pkg.ros.topic.topic_process import TopicProcess
         reports = []

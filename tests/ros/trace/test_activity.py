@@ -117,7 +117,7 @@ def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
 
 
 def test_a_node_written_in_cpp(master: PrivateMaster) -> None:
-    """The counts of a C++ node are read, although a C++ node uses another format.
+    """The poller reads the message counts of a C++ node, although C++ nodes use another format.
 
     A C++ node does not report callers.
     """

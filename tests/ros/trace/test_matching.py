@@ -46,7 +46,7 @@ def events(*records: list[SpanData], start: float = 0.0, end: float = 100.0) -> 
 
 
 def keys(found: tuple[Event, ...]) -> list[tuple[str, str]]:
-    """Return the kind and the key of each event."""
+    """Return the kind and the key (such as "call 2") of each event."""
     return [(event.kind, event.key) for event in found]
 
 

@@ -150,7 +150,7 @@ def test_a_service_that_does_not_exist(asker: Kernel) -> None:
 
 
 def test_a_caller_that_gave_up(asker: Kernel) -> None:
-    """After a timeout, the caller's wait ends with an error, and the handler's event has no end time."""
+    """After a timeout, the caller has an event "error", and the handler's event has no end time."""
     recording = recorded(
         asker,
         """
@@ -329,7 +329,7 @@ def test_dropped_messages_are_not_matched(asker: Kernel, outgoing: int, incoming
 
 
 def test_a_message_without_a_subscriber(asker: Kernel) -> None:
-    """The note of a message says that no subscriber was connected."""
+    """If a message has no subscriber, its note says that no subscriber was connected."""
     recording = recorded(
         asker,
         """
