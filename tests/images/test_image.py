@@ -66,7 +66,7 @@ class Image:
         return _output(["buildah", *storage, "--storage-driver=vfs", *arguments], TMPDIR=str(self._folder))
 
     def build(self) -> None:
-        """Create a base image, build the course's image from the tracked files, and create a container."""
+        """Create a base image, build the image from the files that git tracks, and create a container."""
         base, context = self._folder / "base.tar", self._folder / "context"
         _output(["mmdebstrap", "--variant=minbase", "--include=ca-certificates", "bookworm", base])
         for name in filter(None, git(ROOT, "ls-files", "-z").split("\0")):

@@ -35,7 +35,7 @@ def make_version(prefix: Path) -> Path:
 
 
 def asked(version: Path, program: str, **variables: str) -> str:
-    """Run the Python code `program` with the package of the version in `version`; return the output."""
+    """Run the Python code `program` with the package in the folder `version`; return the output."""
     command = [Places.of().python, "-c", program]
     environment = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "PYTHONPATH": str(version / "course")}
     done = subprocess.run(

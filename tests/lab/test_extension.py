@@ -172,7 +172,7 @@ def test_a_notebook_comes_with_the_language_of_its_kernel() -> None:
 
 
 def test_every_file_of_the_repository_is_listed_or_hidden_on_purpose() -> None:
-    """HIDDEN contains each file in the root folder, except hidden files, `notebooks` and `figures`."""
+    """HIDDEN lists each file in the root folder except dot files, `notebooks` and `figures`."""
     tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     top = {path.partition("/")[0] for path in tracked.splitlines()}
     assert {name for name in top if not name.startswith(".")} == {*HIDDEN, "notebooks", "figures"}

@@ -17,8 +17,7 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from tests.lab.commands import lab
 from tests.lab.test_jupyterlab import Service
 
-# Like JupyterLab, this program writes a file with the server's address; then it exits, as if the port is in
-# use.
+# This program writes a file with the server's address, as JupyterLab does, and exits with an error.
 SERVER_WITHOUT_PORT = """
 import json, os, pathlib, sys
 folder, port = pathlib.Path(sys.argv[1]), int(sys.argv[2])

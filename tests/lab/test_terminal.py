@@ -81,8 +81,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
             request = Request(f"http://{parts.netloc}/api/terminals", data=b"", headers=headers)
             urlopen(request, timeout=20).close()  # noqa: S310
             shells = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
-            # While a shell starts, it has child processes with the same command line, but with higher process
-            # ids.
+            # While a shell starts, its child processes have the same command line, but higher process ids.
             terminal = Terminal(min(shells))
             rosout = eventually(lambda: having(b"rosout/rosout\0", below(process)))
             assert rosout  # If a test starts another node /rosout, the master's own /rosout exits.

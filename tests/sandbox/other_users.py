@@ -18,8 +18,7 @@ import pytest
 from course_pkg.handout.autograder.bundle import Options, write_autograder
 from course_pkg.setup import Places
 
-# The arguments of the script are the copy ($0), the checkout ($1), the cache ($2) and the cache's parent
-# ($3).
+# The arguments of the script are the copy ($0), the checkout ($1), the cache ($2) and its parent ($3).
 MOUNTS = """
 set -e
 mount --make-rprivate /

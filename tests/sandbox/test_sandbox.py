@@ -36,7 +36,7 @@ READABLE = [
     Path("/proc/kcore"),
 ]
 WRITE = ["/", "/usr", "/etc", "/dev", "/proc/sys/kernel", "/run", str(CHECKOUT / "course_pkg")]
-CALLS = {  # If the Linux kernel refuses a call, it returns -1; otherwise, it returns 0 or a positive number.
+CALLS = {  # A refused call returns -1, and any other call returns 0 or a positive number.
     "ptrace": "libc.ptrace(16, os.getppid(), 0, 0)",
     "unshare users": "libc.unshare(0x10000000)",
     "unshare network": "libc.unshare(0x40000000)",

@@ -86,7 +86,7 @@ while True:
 
 
 def test_node_that_ignores_signals_on_a_shared_master(master: PrivateMaster) -> None:
-    """A node that ignores SIGTERM is killed and unregistered after the kernel that started it has exited."""
+    """A node that ignores SIGTERM is killed and unregistered after the kernel that started it was killed."""
     kernel = Kernel()
     kernel.run(f"""
 import sys
