@@ -99,7 +99,7 @@ def _is_called_once(
                 "Set all three sides.",
             ),
             (
-                lambda actual: not same(sorted(sides), sorted(actual.values()), near=1e-4),
+                lambda actual: not same([*sorted(sides)], sorted(actual.values()), near=1e-4),
                 "The request contains other numbers than the arguments of measure(). Send the three "
                 "arguments in every call.",
             ),

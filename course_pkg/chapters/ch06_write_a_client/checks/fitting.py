@@ -13,6 +13,7 @@ from course_pkg.checking.commands.folder import Folder, telling_line
 from course_pkg.checking.peers.scripted_server import Script, ScriptedServer
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.script import require_shebang
+from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import at_this_load, wait_until
 
 FILE = "fits.py"
@@ -268,7 +269,7 @@ def _examine(
         actual=f"{calls} request(s); {outcome}",
         hints=_about_calls(calls, case, done, elsewhere),
     )
-    sides = [float(text) for text in case.arguments[:3]] if calls else []
+    sides: list[Json] = [float(text) for text in case.arguments[:3]] if calls else []
     if server and calls and not same(sides, [*server.requests[0].values()], near=1e-4):
         context.fail(
             f"{case.title}: one request",

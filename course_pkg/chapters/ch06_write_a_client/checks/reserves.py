@@ -49,7 +49,9 @@ def ask_the_next_one(context: CheckContext) -> None:
     context.serve(names["late"], GEOMETRY, lambda _: Late(0.6, {"volume": late}))
     context.serve(names["tardy"], GEOMETRY, lambda _: Late(1.3, {"volume": tardy}))
     context.serve(names["refuses"], GEOMETRY, lambda _: Refuse("not today"))
-    frozen_at, next_at = [], []  # The times in s at which the services "frozen" and "next" were called.
+    # These lists contain the times in s at which the services "frozen" and "next" were called.
+    frozen_at: list[float] = []
+    next_at: list[float] = []
     context.serve(names["frozen"], GEOMETRY, _noted(frozen_at, Silence()))
     context.serve(names["next"], GEOMETRY, _noted(next_at, {"volume": second}))
     sides = context.random.numbers(3, 0.5, 9.0)
