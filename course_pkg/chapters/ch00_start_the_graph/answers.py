@@ -91,6 +91,10 @@ import functools
 def ask_for_volume(service, length, width, height):
     return rospy.ServiceProxy(service, geometry)(length, width, height).volume
 
+# %% 00.2 wrong: other sides in the second call | hint: The numbers in the request differ
+replace("height):", "height, calls=[]):\n    calls.append(service)")
+replace("(length, width, height).volume", "(*(length, width, height) if len(calls) % 2 else (1, 1, 1)).volume")
+
 # %% 00.2 wrong: another unit | hint: Return the volume from the response without
 replace(".volume", ".volume / 1000")
 
@@ -156,3 +160,16 @@ def count_missed(topic, pause):
     rospy.Subscriber(topic, UInt32, lambda message: numbers.append(message.data))
     time.sleep(pause + 0.3)
     return numbers[0], numbers[-1], len(numbers) - 2
+
+# %% 00.3 wrong: computes the second number | hint: a number that it did not receive
+replace("after = rospy.wait_for_message(topic, UInt32, timeout=10).data", "time.sleep(1)\n    after = before + 20")
+# %% 00.3 wrong: receives at the end only | hint: a number that it did not receive
+replace("before = rospy.wait_for_message(topic, UInt32, timeout=10).data", "time.sleep(1)")
+replace("timeout=10).data\n", "timeout=10).data\n    before = after - 20\n")
+# %% 00.3 wrong: receives during most of the pause | hint: Your function received numbers during
+def count_missed(topic, pause):
+    numbers = [rospy.wait_for_message(topic, UInt32).data]
+    time.sleep(0.2)
+    rospy.Subscriber(topic, UInt32, lambda message: numbers.append(message.data))
+    time.sleep(pause)
+    return numbers[0], numbers[-1], numbers[-1] - numbers[0] - 1

@@ -67,6 +67,14 @@ def viewer_command(arm):
     words += [f"joint_states:=/{arm}/joint_states", f"mirrored_joints:=/screen/{arm}/mirrored_joints"]
     return " ".join(words)
 
+# %% 01.2 wrong: registers names without a viewer | hint: The program that your command starts is not
+def viewer_command(arm):
+    viewer = rosgraph.Master(f"/screen/{arm}_viewer")
+    uri = rospy.get_node_uri()
+    viewer.registerSubscriber(f"/{arm}/joint_states", "sensor_msgs/JointState", uri)
+    viewer.registerPublisher(f"/screen/{arm}/mirrored_joints", "sensor_msgs/JointState", uri)
+    return "rosrun course_pkg simulator --help"
+
 # %% 01.2 wrong: joint_states keeps its name | hint: The viewer subscribes to a
 replace("joint_states:=/{arm}/joint_states ", "")
 # %% 01.2 wrong: a relative name for joint_states | hint: The new name of the topic is relative
@@ -107,6 +115,12 @@ def ask_wherever(last, length, width, height):
 # %% 01.3 right: searches only the services of the type
 replace("get_service_list()", 'rosservice_find("course_pkg/geometry")')
 replace("\n    return None", "")
+# %% 01.3 wrong: calls each service | hint: Your function called another service
+replace('if service.split("/")[-1] == last:\n            return rospy.ServiceProxy(service, geometry)(length, width, height).volume', """if last in service:
+            volume = rospy.ServiceProxy(service, geometry)(length, width, height).volume
+            found = volume if service.split("/")[-1] == last else found""")
+replace("    for service", "    found = None\n    for service")
+replace("return None", "return found")
 # %% 01.3 wrong: only in the outermost namespace | hint: Your function called a service
 replace("for service … return None", "return rospy.ServiceProxy(last, geometry)(length, width, height).volume")
 # %% 01.3 wrong: accepts any name that contains the last part | hint: Your function called another service
@@ -222,6 +236,19 @@ def living_publishers(topic):
 
 # %% 01.4 wrong: one string | hint: Return a list of node names
 replace("return sorted(", 'return ", ".join(')
+# %% 01.4 wrong: requests the topic in place of a ping | hint: did not ping every node that it returned
+def living_publishers(topic):
+    from xmlrpc.client import ServerProxy
+
+    living = []
+    for name in dict(rosgraph.Master("/chapter_01").getSystemState()[0]).get(topic, []):
+        try:
+            ServerProxy(rosnode.get_api_uri(rosgraph.Master("/x"), name)).requestTopic("/x", topic, [["TCPROS"]])
+            living.append(name)
+        except Exception:
+            pass
+    return sorted(living)
+
 # %% 01.4 wrong: an open port counts as an answer | hint: Your list contains a node that was
 def living_publishers(topic):
     import socket

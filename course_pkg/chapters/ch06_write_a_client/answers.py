@@ -63,6 +63,9 @@ def measure(service, length, width, height):
         response = proxy(length, width, height)
     return response.area, response.volume
 
+# %% 06.1 wrong: other sides in each second call | hint: Send the three arguments in every call
+replace("height):", "height, calls=[]):\n    calls.append(service)\n    length = length if len(calls) % 2 else 1.0")
+
 # %% 06.1 wrong: a fixed service | hint: The given service exists, but your
 replace("response = rospy.ServiceProxy(service, geometry)", 'r = rospy.ServiceProxy("/getGeometry", geometry)')
 replace("response.area, response", "r.area, r")
@@ -81,6 +84,11 @@ def is_there(service, seconds):
 replace("try: … return True", "if seconds < 1:\n        rospy.sleep(seconds)\n    return seconds > 1")
 # %% 06.2 wrong: looks only at the first five services | hint: With another service, the result was wrong.
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)\n    if len(calls) > 5:\n        return True")
+# %% 06.2 wrong: waits only if the limit is long | hint: The function returned False too early
+replace("timeout=seconds", "timeout=seconds if seconds > 2 else seconds / 2")
+# %% 06.2 wrong: calls the service, but only from the fifth time on | hint: but do not call the service
+replace("seconds):", "seconds, calls=[]):\n    calls.append(service)")
+replace("timeout=seconds)", "timeout=seconds)\n        if len(calls) > 5:\n            rospy.ServiceProxy(service, geometry)(1, 1, 1)")
 # %% 06.2 wrong: no limit | hint: The function waited longer than `seconds`.
 replace("service, timeout=seconds", "service")
 # %% 06.2 wrong: catches the other exception | hint: Catch this exception.
@@ -88,7 +96,7 @@ replace("rospy.ROSException", "rospy.ServiceException")
 # %% 06.2 wrong: uses the return value of wait_for_service | hint: The service exists, but the result was
 replace("rospy.wait_for_service(service, timeout=seconds)", "return bool(rospy.wait_for_service(service, timeout=seconds))")
 replace("\n    return True", "")
-# %% 06.2 wrong: looks once | hint: The service started after 1.3 s,
+# %% 06.2 wrong: looks once | hint: Wait for the service up to
 replace("timeout=seconds", "timeout=0.1")
 # %% 06.2 wrong: returns None if there is no service | hint: When the time was over
 replace("except rospy … return True", '    return True\n    except rospy.ROSException:\n        print("not there")')
@@ -169,6 +177,10 @@ replace(".volume", ".volume if len(calls) < 7 else None")
 # %% 06.3 wrong: returns None for a volume of 0 | hint: The server responded, but the function
 replace(".volume", ".volume or None")
 
+# %% 06.3 wrong: hides a wrong height | hint: The function catches the exception that a wrong
+replace("    try:", "    if not isinstance(height, (int, float)):\n        return None\n    try:")
+# %% 06.3 wrong: catches the KeyboardInterrupt | hint: The function catches the KeyboardInterrupt
+replace("rospy.ServiceException", "(rospy.ServiceException, KeyboardInterrupt)")
 # %% 06.3 wrong: tries again | hint: The function repeated a failed
 def volume_or_none(service, length, width, height):
     for _ in range(2):
@@ -297,6 +309,8 @@ def first_answer(services, length, width, height):
 replace("timeout=1", "timeout=2")
 # %% 06.4 wrong: a limit that is too short | hint: The first service responds after 0.6
 replace("timeout=1", "timeout=0.4")
+# %% 06.4 wrong: waits 0.8 s | hint: Wait one full second for each service
+replace("timeout=1", "timeout=0.8")
 # %% 06.4 wrong: calls two services only | hint: try all services
 replace("services:", "services[:2]:")
 # %% 06.4 wrong: skips a volume of 0 | hint: The first service responded with the
@@ -380,6 +394,8 @@ replace("\n    return sides if len(sides) == 3 else None", "")
 replace("argv):", "argv, calls=[]):\n    calls.append(argv)\n    if len(calls) > 8:\n        return None")
 # %% 06.5 wrong: keeps the arguments of ROS | hint: Arguments with := are for ROS. Use
 replace("rospy.myargv(argv)", "argv")
+# %% 06.5 wrong: knows three arguments of ROS | hint: Arguments with := are for ROS. Use
+replace("rospy.myargv(argv)", '[text for text in argv if text.split(":=")[0] not in ("__name", "__log", "getGeometry")]')
 # %% 06.5 wrong: counts the program's name | hint: The function returned None. Read the
 replace("(argv)[1:]", "(argv)")
 # %% 06.5 wrong: two sides and the program's name | hint: The first item of the
@@ -458,6 +474,10 @@ if __name__ == "__main__":
 
 # %% 06.6 wrong: no first line | hint: The shebang is missing: the first
 replace("#!/usr/bin/env python3\n", "")
+# %% 06.6 wrong: waits 6 s | hint: The program waits too long for a missing service
+replace("timeout=2", "timeout=6")
+# %% 06.6 wrong: sends no sides | hint: Send LENGTH, WIDTH and HEIGHT as
+replace("geometry)(*sides)", "geometry)(0, 0, 0)")
 # %% 06.6 wrong: no guard | hint: Python cannot import the file
 replace('if __name__ == "__main__":\n    sys.exit(main())', "sys.exit(main())")
 # %% 06.6 wrong: no init_node | hint: The program ignored the remapping

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from xmlrpc.server import SimpleXMLRPCServer
 
 import rospy
 
@@ -121,9 +122,9 @@ def held_back(number: int) -> Iterator[list[int]]:
 class FakeNode:
     """A node that is registered as a publisher of `topic` during the `with` block, but never publishes.
 
-    If `alive` is true, the FakeNode has the address of the check's own node, so a ping succeeds. If `alive`
-    is false, the port of the address is closed, as after a kill. If `reused` is true, the port is open, but
-    each connection is closed, as if another program used the port.
+    If `alive` is true, the FakeNode has a slave API of its own, so a ping succeeds; `pings` contains the
+    methods that were called. If `alive` is false, the port of the address is closed, as after a kill. If
+    `reused` is true, the port is open, but each connection is closed, as if another program used the port.
     """
 
     def __init__(
@@ -131,13 +132,19 @@ class FakeNode:
     ) -> None:
         self.name = name
         self._node, self._topic, self._kind = node, topic, kind
+        self.alive = alive
+        self.pings: list[str] = []
         self._listener = socket.create_server(("127.0.0.1", 0)) if reused else None
+        self._api = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False) if alive else None
         port = self._listener.getsockname()[1] if self._listener else closed_port()
-        self._uri = node.uri if alive else f"http://localhost:{port}/"
+        self._uri = f"http://localhost:{self._api.server_address[1] if self._api else port}/"
 
     def __enter__(self) -> FakeNode:
         if self._listener:
             threading.Thread(target=_hang_up, args=(self._listener,), daemon=True).start()
+        if self._api:
+            self._api.register_instance(self)
+            threading.Thread(target=self._api.serve_forever, args=(0.05,), daemon=True).start()
         self._node.master.register_publisher(self.name, self._topic, self._kind, self._uri)
         return self
 
@@ -147,6 +154,16 @@ class FakeNode:
             with suppress(OSError):
                 self._listener.shutdown(socket.SHUT_RDWR)  # This call ends accept().
             self._listener.close()
+        if self._api:
+            self._api.shutdown()
+            self._api.server_close()
+
+    def _dispatch(self, method: str, _: object) -> list[object]:
+        """Answer a call of the slave API (wiki.ros.org/ROS/Slave_API); the node has no topic data."""
+        if method == "requestTopic":  # A subscriber of the topic sends this request.
+            return [-1, "this node never publishes", 0]
+        self.pings.append(method)
+        return [1, "", os.getpid() if method == "getPid" else []]
 
 
 def _hang_up(listener: socket.socket) -> None:

@@ -29,3 +29,19 @@ def expect_geometry(
         near=1e-3,
         hints=volume,
     )
+
+
+def boxes(context: CheckContext, count: int) -> list[list[float]]:
+    """Return the sides of `count` boxes: fractions, whole numbers, equal sides, and small or large sides.
+
+    A function that handles only one kind of number correctly fails. The first box has three different
+    fractional sides, so that a wrong order is visible.
+    """
+    side = context.random.number(0.5, 9.0)
+    others: list[list[float]] = [
+        [*context.random.integers(3, 1, 9)],
+        [side, side, context.random.number(0.5, 9.0)],
+        context.random.numbers(3, 0.001, 0.5, digits=3),
+        context.random.numbers(3, 10.0, 9000.0),
+    ]
+    return [context.random.numbers(3, 0.5, 9.0), *context.random.shuffled(others)[: count - 1]]

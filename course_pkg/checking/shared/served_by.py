@@ -21,12 +21,14 @@ def served_at(name):
 def require_served_by_program(context: CheckContext, program: Running, *services: str) -> None:
     """Assert that the program, or one of its child processes, listens at the address of each service."""
     seen = context.look()
-    for service in filter(None, map(seen.service, services)):
-        if not program.listens_at(service.uri):
+    for name in services:
+        service = seen.service(name)
+        if service is None or not program.listens_at(service.uri):
+            node = service.node if service else "that is not registered any more"
             context.fail(
                 "the program itself serves its services",
                 expected="a server in the process of the program",
-                actual=f"{service.name} is served by the node {service.node} in another process",
+                actual=f"{name} is served by the node {node}, in another process",
                 hint=(
                     "Another process provides the service with the name in the exercise. Create "
                     "this service in your program."

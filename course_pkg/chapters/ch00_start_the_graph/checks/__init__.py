@@ -1,5 +1,6 @@
 """The checks of chapter 00: read the graph, call a service, receive from a topic."""
 
+from collections.abc import Sequence
 from math import prod
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
@@ -7,12 +8,13 @@ from course_pkg.checking.assertions import Hints, same
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.publisher import Publisher
 from course_pkg.checking.plain_values import of_kind
+from course_pkg.checking.shared.geometry import boxes
 from course_pkg.ros.protocol.json_channel import Json
 
 NOT_RECEIVED = [
     (
         matches("^ROSException.*timeout|^TimesUp"),
-        "No message arrived, although the topic gets 33 messages per second. Receive messages "
+        "No message arrived, although the topic gets more than 20 messages per second. Receive messages "
         "of the type UInt32 from the topic whose name is in the argument `topic`.",
     )
 ]
@@ -157,59 +159,54 @@ def read_the_graph(context: CheckContext) -> None:
     runs=["server"],
 )
 def ask_a_question(context: CheckContext) -> None:
-    """Respond with random volumes; the student's function can know a volume only from the response."""
+    """Respond with random volumes; the student's function can know a volume only from the response.
+
+    The second call has the same sides as the first call, but the response contains a new volume.
+    """
     for _ in range(2):
         name = f"/{context.random.word()}"
-        length, width, height = context.random.numbers(3, 0.5, 9.0)
-        sides = {"length": length, "width": width, "height": height}
-        area, volume = (
-            whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
-        )  # A float32 stores the area and the volume exactly.
-        server = context.serve(
-            name, "course_pkg/geometry", lambda _, a=area, v=volume: {"area": a, "volume": v}
-        )
-        returned = context.run("ask_for_volume", name, length, width, height).returned()
-        context.require(
-            "the given service is called",
-            holds=bool(server.requests),
-            expected=f"a call of {name}",
-            actual="no call",
-            hints=[
-                (
-                    ANYTHING,
-                    (
-                        "Your function did not call the given service. Pass the argument `service` "
-                        "to rospy.ServiceProxy."
-                    ),
+        response: dict[str, float] = {}
+        server = context.serve(name, "course_pkg/geometry", lambda _, response=response: response)
+        first, *others = boxes(context, context.random.integer(2, 4))
+        for number, sides in enumerate([first, first, *others]):
+            area, volume = (
+                whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
+            )  # A float32 stores the area and the volume exactly.
+            response.update(area=area, volume=volume)
+            before = len(server.requests)
+            returned = context.run("ask_for_volume", name, *sides).returned()
+            requests = server.requests[before:]
+            context.require(
+                "the given service is called",
+                holds=bool(requests),
+                expected=f"a call of {name}",
+                actual="no call",
+                hints=(
+                    "A second call with the same sides returned the result of the first call. Call the "
+                    "service each time ask_for_volume() runs."
                 )
-            ],
-        )
-        context.expect(
-            "the sides are sent in the order length, width, height",
-            expected=sides,
-            actual=server.requests[0],
-            near=1e-4,
-            hints=_other_sides(sides),
-        )
-        context.expect(
-            "the volume of the response is returned",
-            expected=volume,
-            actual=returned,
-            near=1e-6,
-            hints=_no_volume(area, volume, (length, width, height)),
-        )
-        before = len(server.requests)
-        context.run("ask_for_volume", name, length, width, height).returned()
-        context.require(
-            "the given service is called",
-            holds=len(server.requests) > before,
-            expected="a second call of the service",
-            actual="no second call",
-            hints=(
-                "A second call with the same sides returned the result of the first call. Call the service "
-                "each time ask_for_volume() runs."
-            ),
-        )
+                if number == 1
+                else (
+                    "Your function did not call the given service. Pass the argument `service` "
+                    "to rospy.ServiceProxy."
+                ),
+            )
+            named = dict(zip(("length", "width", "height"), sides, strict=True))
+            for request in requests:
+                context.expect(
+                    "the sides are sent in the order length, width, height",
+                    expected=named,
+                    actual=request,
+                    near=1e-4,
+                    hints=_other_sides(named),
+                )
+            context.expect(
+                "the volume of the response is returned",
+                expected=volume,
+                actual=returned,
+                near=1e-6,
+                hints=_no_volume(area, volume, sides),
+            )
 
 
 def _other_sides(sides: dict[str, float]) -> Hints:
@@ -234,7 +231,7 @@ def _other_sides(sides: dict[str, float]) -> Hints:
     ]
 
 
-def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
+def _no_volume(area: float, volume: float, sides: Sequence[float]) -> Hints:
     """Return hints for a returned value that is not `volume`, the volume in the response."""
     return [
         (None, NO_RETURN),
@@ -298,7 +295,8 @@ def count_what_was_missed(context: CheckContext) -> None:
         topic = f"/{context.random.word()}"
         first = context.random.integer(1000, 9000)
         numbers = [{"data": first + step} for step in range(1000)]
-        publisher = context.publish(topic, "std_msgs/UInt32", numbers, every=0.03)
+        every = context.random.number(0.02, 0.045, digits=3)
+        publisher = context.publish(topic, "std_msgs/UInt32", numbers, every=every)
         pause = context.random.number(shortest, shortest + 0.15)
         done = context.run("count_missed", topic, pause, within=4.0 + pause, hints=_no_numbers(publisher))
         before, after, missed = _three_numbers(context, done.returned())
@@ -329,11 +327,27 @@ def count_what_was_missed(context: CheckContext) -> None:
                 "for `pause` seconds with `time.sleep`."
             ),
         )
-        if 0 not in publisher.subscribers[before - first : after - first]:
+        # A number is received only if the publisher has a subscriber. The subscriber may connect just after
+        # the publisher counted its subscribers.
+        subscribers = publisher.subscribers
+        for place in (before - first, after - first):
+            if not any(subscribers[place : place + 2]):
+                context.fail(
+                    "the first two numbers are numbers of the topic",
+                    expected="two numbers that your function received",
+                    actual=f"{first + place}, a number that was published without a subscriber",
+                    hint=(
+                        "Your function returned a number that it did not receive. Receive one number before "
+                        "the pause and one number after the pause, and return these two numbers."
+                    ),
+                )
+        unheard = subscribers[before - first : after - first].count(0)
+        # On a busy machine, an unsubscribed subscriber may be counted for a part of the short pause.
+        if unheard < (1 if shortest < 1 else (after - before) / 2):
             context.fail(
                 "the second number is received after the pause",
                 expected="no subscriber during the pause",
-                actual="a subscriber that received all numbers during the pause",
+                actual="a subscriber that received numbers during the pause",
                 hint=(
                     "Your function received numbers during the pause. Use "
                     "rospy.wait_for_message: this function unsubscribes after one message."

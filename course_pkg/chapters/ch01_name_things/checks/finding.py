@@ -3,6 +3,8 @@
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.scripted_server import ScriptedServer
+from course_pkg.checking.shared.geometry import boxes
 from course_pkg.waiting import at_this_load
 
 NUMBER = "std_msgs/UInt32"
@@ -31,6 +33,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
     The namespace of the service has a different depth in each run. Later, call the student's function with
     the name of a service that does not exist.
     """
+    similar: list[ScriptedServer] = []
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()
         place = "".join(f"/{context.random.word()}" for _ in range(depth))
@@ -47,6 +50,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             name: context.serve(name, GEOMETRY, lambda _, v=named[name]: {"volume": v, "area": v + 1})
             for name in context.random.shuffled([*named])
         }
+        similar += [server for name, server in servers.items() if name != wanted]
         length, width, height = context.random.numbers(3, 0.5, 9.0)
         returned = context.run("ask_wherever", last, length, width, height, hints=_LOST).returned()
         context.expect(
@@ -87,24 +91,8 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
                 ),
             ],
         )
-        context.expect(
-            "the request has length, width and height",
-            expected={"length": length, "width": width, "height": height},
-            actual=servers[wanted].requests[0],
-            near=1e-4,
-            hints=[
-                (
-                    lambda actual: not any(actual.values()),
-                    "The request contains 0 for all sides, because a field without a value is "
-                    "0. Set all three sides.",
-                ),
-                (
-                    ANYTHING,
-                    "The order of the sides in the request is wrong. Compare this order with "
-                    "the output of `rossrv show course_pkg/geometry`.",
-                ),
-            ],
-        )
+        _is_sent(context, servers[wanted], [length, width, height])
+        _only_this_one(context, similar)
     last = context.random.word()
     context.serve(f"/{last}", GEOMETRY, lambda _: {"volume": 0.0, "area": 1.0})
     context.expect(
@@ -132,27 +120,67 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
     _in_a_random_order(context)
 
 
+def _is_sent(context: CheckContext, server: ScriptedServer, sides: list[float]) -> None:
+    """Assert that the first request contains `sides`."""
+    context.expect(
+        "the request has length, width and height",
+        expected=dict(zip(("length", "width", "height"), sides, strict=True)),
+        actual=server.requests[0],
+        near=1e-4,
+        hints=[
+            (
+                lambda actual: not any(actual.values()),
+                "The request contains 0 for all sides, because a field without a value is "
+                "0. Set all three sides.",
+            ),
+            (
+                ANYTHING,
+                "The order of the sides in the request is wrong. Compare this order with "
+                "the output of `rossrv show course_pkg/geometry`.",
+            ),
+        ],
+    )
+
+
+def _only_this_one(context: CheckContext, similar: list[ScriptedServer]) -> None:
+    """Assert that the student's function called none of the services with similar names."""
+    requests = sum(len(server.requests) for server in similar)
+    if requests:
+        context.fail(
+            "the volume comes from the right service",
+            expected="no call of another service",
+            actual=f"{requests} call(s) of services with similar names",
+            hint=LOOKS_LIKE_IT,
+        )
+
+
 def _in_a_random_order(context: CheckContext) -> None:
     """Call the student's function with new names; a function with a fixed list of results fails."""
     volumes: list[float | None] = [*context.random.numbers(context.random.integer(2, 4), 1.0, 9.0)]
     missing: list[float | None] = [None] * context.random.integer(1, 3)
+    similar = []
     for volume in context.random.shuffled([*volumes, *missing]):
         place, last = (context.random.word() for _ in range(2))
-        context.serve(f"/{place}/x{last}", GEOMETRY, lambda _: {"volume": 99.0})
+        *_, sides = boxes(context, 2)
+        similar.append(context.serve(f"/{place}/x{last}", GEOMETRY, lambda _: {"volume": 99.0}))
+        server = None
         if volume is not None:
-            context.serve(f"/{place}/{last}", GEOMETRY, lambda _, volume=volume: {"volume": volume})
+            server = context.serve(f"/{place}/{last}", GEOMETRY, lambda _, volume=volume: {"volume": volume})
         context.expect(
             "None if there is no such service"
             if volume is None
             else "the volume comes from the right service",
             expected=volume,
-            actual=context.run("ask_wherever", last, 1.0, 2.0, 3.0, hints=_LOST + _NOBODY).returned(),
+            actual=context.run("ask_wherever", last, *sides, hints=_LOST + _NOBODY).returned(),
             near=1e-6,
             hints=(
                 "The result has to depend on the services that exist now, not on earlier calls. Each "
                 "time your function is called, get the list of services again."
             ),
         )
+        if server:
+            _is_sent(context, server, sides)
+    _only_this_one(context, similar)
 
 
 _LOST = [
@@ -194,17 +222,23 @@ def who_really_publishes(context: CheckContext) -> None:
     # In the order of registration and in the order of names, a dead node comes between running nodes. A loop
     # that ends at a dead node therefore misses some running nodes.
     living, dead = context.random.shuffled(sorted(names[:5])[::2]), sorted(names[:5])[1::2]
-    for number, name in enumerate([living[0], dead[0], living[1], dead[1], living[2]]):
+    nodes = [
         context.fake_node(name, topic, NUMBER, alive=number % 2 == 0, reused=number == 3)
+        for number, name in enumerate([living[0], dead[0], living[1], dead[1], living[2]])
+    ]
     context.fake_node(names[5], other, NUMBER)
     context.fake_node(names[6], grave, NUMBER, alive=False)
     context.fake_node(names[7], f"{topic}_2", NUMBER)
     context.subscribe(topic, NUMBER)
     subscribers = {name for each in context.look().topics if each.name == topic for name in each.subscribers}
+    for node in nodes:
+        node.pings.clear()
+    found = _living(context, topic)
+    unpinged = [node.name for node in nodes if node.alive and not node.pings]
     context.expect(
         "the running publishers of a topic, sorted",
         expected=sorted(living),
-        actual=_living(context, topic),
+        actual=found,
         hints=[
             (None, NO_RETURN),
             (
@@ -260,6 +294,16 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
         ],
     )
+    if unpinged:
+        context.fail(
+            "the running publishers of a topic, sorted",
+            expected="a ping of each publisher",
+            actual=f"no ping of {', '.join(sorted(unpinged))}",
+            hint=(
+                "Your function did not ping every node that it returned. A node is running only if it "
+                "answers a call of rosnode_ping."
+            ),
+        )
     context.fulfilled(RUNNING)
     context.expect(
         "no running publisher gives an empty list",

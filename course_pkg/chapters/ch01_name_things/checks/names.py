@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.commands.folder import Running
@@ -11,8 +11,10 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.shared.command_line import commands_of
 from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.ros.protocol.snapshot import ServiceSeen, Snapshot
+from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient
 
 GEOMETRY = "course_pkg/geometry"
+TIMEOUT = 5.0  # A running node has to list its topics within this time in s.
 START = 20.0  # A program may take this many s to start; usually, it takes 0.5 s.
 WHERE = "the service of a room is measure, in the namespace of the room"
 OWN_SERVICE = "Start a server that offers the service `measure` in the namespace of the room."
@@ -42,11 +44,12 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
     """Run the student's commands for two rooms, and call the servers that the commands start."""
     rooms = [context.random.word() for _ in range(2)]
     with ExitStack() as running:
+        servers = {}
         for room in rooms:
             before = {service.uri for service in context.look().services}
-            server = _start(context, running, "measurer_command", room, "server")
-            _serves(context, server, room, before)
-        for room in rooms:
+            servers[room] = _start(context, running, "measurer_command", room, "server")
+            _serves(context, servers[room], room, before)
+        for room in context.random.shuffled(rooms):
             length, width, height = context.random.numbers(3, 0.5, 9.0)
             measure = context.service(f"/{room}/measure", GEOMETRY)
             context.expect(
@@ -55,6 +58,8 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
                 actual=measure(length=length, width=width, height=height).area,
                 near=1e-3,
             )
+        for room, server in servers.items():
+            require_served_by_program(context, server, f"/{room}/measure")
     context.fulfilled(OWN_SERVICE)
 
 
@@ -241,6 +246,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             ],
         )
     published = [topic.name for topic in seen.topics if name in topic.publishers]
+    _require_own_topics(context, viewer, name, seen)
     with context.goal(PUBLISHES):
         context.expect(
             "the viewer publishes the arm's mirrored_joints",
@@ -264,6 +270,30 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
                     ),
                 ),
             ],
+        )
+
+
+def _require_own_topics(context: CheckContext, viewer: Running, name: str, seen: Snapshot) -> None:
+    """Assert that the program of the command has the topics with which the master lists the node `name`.
+
+    The master stores what any program registers, so the check also requests the topics from the program.
+    """
+    node = seen.node(name)
+    own: list[RpcValue] = []
+    if node and viewer.listens_at(node.uri):
+        with suppress(OSError, *NO_ANSWER):
+            client = XmlRpcClient(node.uri, TIMEOUT)
+            own = [client.ask(method, "/check") for method in ("getSubscriptions", "getPublications")]
+    listed = {topic.name for topic in seen.topics if name in {*topic.subscribers, *topic.publishers}}
+    if node and not all(repr(topic) in str(own) for topic in listed):
+        context.fail(
+            "the node is the program of the command",
+            expected="a program that subscribes and publishes itself",
+            actual=f"{name}, which is registered without a program of the command",
+            hint=(
+                "The program that your command starts is not the registered viewer. Give the program its "
+                "node name and its topics with the command only."
+            ),
         )
 
 

@@ -74,7 +74,9 @@ def read_the_arguments(context: CheckContext) -> None:
         ),
         *texts,
     ]
-    for argv in (remapped, [program, *texts, "__log:=/tmp/x"]):
+    private = f"_{context.random.word()}:={context.random.integer(1, 9)}"
+    other = f"{context.random.word()}:=/{context.random.word()}"
+    for argv in (remapped, [program, *texts, "__log:=/tmp/x"], [program, private, *texts, other]):
         context.expect(
             "arguments for ROS are ignored",
             expected=sides,

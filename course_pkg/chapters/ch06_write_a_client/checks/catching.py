@@ -2,8 +2,8 @@
 
 import math
 
-from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
-from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Refuse, matches, part
+from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, stops, volumes
+from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Refuse, Silence, matches, part
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.result import Result
 
@@ -79,18 +79,26 @@ def catch_what_can_happen(context: CheckContext) -> None:
             _is_called_once(context, server)
     _in_a_random_order(context, sides)
     context.fulfilled(CAUGHT)
-    for slip in (f"{context.random.word()} metres", context.random.number(2.0, 9.0) * 1e200):
-        _comes_out(context, context.run("volume_or_none", good, slip, *sides[1:]), repr(slip))
-    text = str(sides[0])
+    # rospy replaces None by 0, so None is not a mistake.
+    slips = [f"{context.random.word()} metres", context.random.number(2.0, 9.0) * 1e200, sides, {"side": 1.0}]
+    for slip in context.random.shuffled(slips):
+        for place in range(3):
+            wrong = [*sides[:place], slip, *sides[place + 1 :]]
+            _comes_out(context, context.run("volume_or_none", good, *wrong), repr(slip))
     converted = (
         "The function accepted a string as a number, but a string has to cause an exception. "
         "Do not convert the arguments."
     )
-    _comes_out(context, context.run("volume_or_none", good, text, *sides[1:]), repr(text), converted)
+    for place, side in enumerate(sides):
+        wrong = [*sides[:place], str(side), *sides[place + 1 :]]
+        _comes_out(context, context.run("volume_or_none", good, *wrong), repr(str(side)), converted)
     context.prepare(NO_NAMES)
     for kind in ("TypeError", "AttributeError", "ValueError"):
         slipped = context.run("volume_or_none", Its(f"no_name.{kind}"), *sides)
         _comes_out(context, slipped, f"a name that is not a string: {kind}")
+    silent = f"/{context.random.word()}"
+    context.serve(silent, GEOMETRY, lambda _: Silence())
+    stops(context, "volume_or_none", silent, *sides, catch="rospy.ServiceException")
 
 
 def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:

@@ -1,17 +1,22 @@
 """The client that calls the next server after a failure; each call has a time limit."""
 
-from collections.abc import Mapping
+import time
+from collections.abc import Mapping, Sequence
 
 from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
 from course_pkg.checking import ANYTHING, CheckContext, Late, Refuse, Silence, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.scripted_server import Act, Script
+from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Result
 
-KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
+KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "next", "nowhere")
 # A service that does not respond may delay the result by at most this many s; a correct function waits 1 s
 # for it.
 LONGEST = 1.75
+# If a service does not respond, the next service must not be called earlier than after this many s.
+SHORTEST = 0.9
 FIRST = "If the first service responds, return the volume in its response."
 NEXT = (
     "If a service does not exist or refuses the request, return the volume in the response of the "
@@ -44,7 +49,11 @@ def ask_the_next_one(context: CheckContext) -> None:
     context.serve(names["late"], GEOMETRY, lambda _: Late(0.6, {"volume": late}))
     context.serve(names["tardy"], GEOMETRY, lambda _: Late(1.3, {"volume": tardy}))
     context.serve(names["refuses"], GEOMETRY, lambda _: Refuse("not today"))
-    context.serve(names["frozen"], GEOMETRY, lambda _: Silence())
+    # These lists contain the times in s at which the services "frozen" and "next" were called.
+    frozen_at: list[float] = []
+    next_at: list[float] = []
+    context.serve(names["frozen"], GEOMETRY, _noted(frozen_at, Silence()))
+    context.serve(names["next"], GEOMETRY, _noted(next_at, {"volume": second}))
     sides = context.random.numbers(3, 0.5, 9.0)
     working = context.run("first_answer", [names["first"], names["second"]], *sides, hints=_ERRORS)
     context.expect(
@@ -134,7 +143,7 @@ def ask_the_next_one(context: CheckContext) -> None:
             "service. Wait for one second before you call the next service."
         ),
     )
-    frozen = _first_of(context, names, "frozen", "second")
+    frozen = _first_of(context, names, "frozen", "next")
     context.expect(
         "the next service is used if one is frozen",
         expected=second,
@@ -150,7 +159,20 @@ def ask_the_next_one(context: CheckContext) -> None:
     )
     took = frozen.took
     if took - working.took >= LONGEST:  # The call may be slow because the machine is busy, so repeat it once.
-        took = min(took, _first_of(context, names, "frozen", "second").took)
+        took = min(took, _first_of(context, names, "frozen", "next").took)
+    for _ in range(2):  # On a busy machine, the first request may arrive late.
+        if _longest_pause(frozen_at, next_at) < SHORTEST:
+            _first_of(context, names, "frozen", "next")
+    if _longest_pause(frozen_at, next_at) < SHORTEST:
+        context.fail(
+            "a frozen service delays the result by about one second",
+            expected="a call of the next service after 1 s",
+            actual=f"a call of the next service after {_longest_pause(frozen_at, next_at):.2f} s",
+            hint=(
+                "The function called the next service too early. Wait one full second for each service, "
+                "because a slow server may still respond in this second."
+            ),
+        )
     context.require(
         "a frozen service delays the result by about one second",
         holds=took - working.took < LONGEST,
@@ -178,6 +200,23 @@ def ask_the_next_one(context: CheckContext) -> None:
         hints="No service responded, but the function returned a value. Return None after the loop.",
     )
     _in_a_random_order(context, names, {"first": first, "second": second, "flat": 0.0})
+
+
+def _noted(times: list[float], act: Act) -> Script:
+    """Return a script that stores the time of each request in `times`, and returns `act`."""
+
+    def script(_: Message) -> Act:
+        times.append(time.monotonic())
+        return act
+
+    return script
+
+
+def _longest_pause(earlier: Sequence[float], later: Sequence[float]) -> float:
+    return max(
+        (second - first for first, second in zip(earlier, later, strict=False)),
+        default=0.0,
+    )
 
 
 def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: Mapping[str, float]) -> None:

@@ -1,16 +1,16 @@
 """The client that tests whether a server is running."""
 
+from collections.abc import Sequence
 from threading import Timer
 
 from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, stops
 from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.waiting import at_this_load
 
-# The student's function gets this time limit in s, which is long enough for a connection on a busy machine.
-SAME = 1.5
-# The service starts STARTS s after the beginning of the call, and the call has a time limit of LATER s.
-STARTS, LATER = 1.3, 4.0
+# A call for a missing service may return this many s before its time limit.
+EARLY = 0.3
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 
 
@@ -75,16 +75,7 @@ def is_anybody_there(context: CheckContext) -> None:
             )
         ],
     )
-    if server.requests:
-        context.fail(
-            "it does not call the service",
-            expected="no request",
-            actual=f"{len(server.requests)} request(s)",
-            hint=(
-                "The function called the service, and this call started the server's work. Wait for the "
-                "service, but do not call the service."
-            ),
-        )
+    _calls_nothing(context, [server])
     _never_there(
         context,
         nowhere,
@@ -97,8 +88,14 @@ def is_anybody_there(context: CheckContext) -> None:
         "wait_for_service, which also tries to connect to the server.",
     )
     context.fulfilled(THERE)
-    Timer(STARTS, context.serve, [later, GEOMETRY, lambda _: {}]).start()
-    waited = context.run("is_there", later, LATER, within=2 * LATER)
+    # The service starts `starts` s after the beginning of the call. The call has a time limit of `limit` s.
+    starts = context.random.number(1.1, 1.4, digits=1)
+    limit = context.random.number(3.2, 4.2, digits=1)
+    started = [server]
+    start = Timer(starts, lambda: started.append(context.serve(later, GEOMETRY, lambda _: {})))
+    start.start()
+    waited = context.run("is_there", later, limit, within=2 * limit)
+    start.join()
     context.expect(
         "True for a service that comes in time",
         expected=True,
@@ -106,26 +103,41 @@ def is_anybody_there(context: CheckContext) -> None:
         hints=[
             (
                 False,
-                "The service started after 1.3 s, and `seconds` was 4. Wait for the service up "
+                f"The service started after {starts} s, and `seconds` was {limit}. Wait for the service up "
                 "to `seconds` seconds.",
             )
         ],
     )
     context.require(
         "no wait for a service that is there",
-        holds=waited.took < min(at_this_load(STARTS + 1.0), LATER),
-        expected=f"a result soon after {STARTS} s",
+        holds=waited.took < min(at_this_load(starts + 1.0), limit),
+        expected=f"a result soon after {starts} s",
         actual=f"a result after {waited.took:.1f} s",
         hints=(
-            f"The service started after {STARTS} s, but the function continued to wait. Use "
+            f"The service started after {starts} s, but the function continued to wait. Use "
             "wait_for_service, which returns as soon as the service exists."
         ),
     )
-    _in_a_random_order(context)
-    stops(context, "is_there", nowhere, 3.0, catch="rospy.ROSException")
+    _in_a_random_order(context, started)
+    stops(context, "is_there", nowhere, context.random.number(2.0, 4.0), catch="rospy.ROSException")
+    _calls_nothing(context, started)
 
 
-def _in_a_random_order(context: CheckContext) -> None:
+def _calls_nothing(context: CheckContext, servers: Sequence[ScriptedServer]) -> None:
+    requests = sum(len(server.requests) for server in servers)
+    if requests:
+        context.fail(
+            "it does not call the service",
+            expected="no request",
+            actual=f"{requests} request(s)",
+            hint=(
+                "The function called the service, and this call started the server's work. Wait for the "
+                "service, but do not call the service."
+            ),
+        )
+
+
+def _in_a_random_order(context: CheckContext, servers: list[ScriptedServer]) -> None:
     """Call the student's function with new names; a function with a fixed list of results fails."""
     fixed = (
         "With another service, the result was wrong. The result has to depend on the given "
@@ -134,14 +146,27 @@ def _in_a_random_order(context: CheckContext) -> None:
     there = [True] * context.random.integer(3, 5) + [False] * context.random.integer(2, 3)
     for expected in context.random.shuffled(there):
         name = f"/{context.random.word()}"
+        # These times are long enough for a connection on a busy machine.
+        seconds = context.random.number(1.2, 1.8)
         if expected:
-            context.serve(name, GEOMETRY, lambda _: {})
+            servers.append(context.serve(name, GEOMETRY, lambda _: {}))
+        result = context.run("is_there", name, seconds, within=6.0)
         context.expect(
             "True for a service that is there" if expected else "False for a service that does not come",
             expected=expected,
-            actual=context.run("is_there", name, SAME, within=6.0).returned(),
+            actual=result.returned(),
             hints=fixed,
         )
+        if not expected and result.took < seconds - EARLY:
+            context.fail(
+                "False for a service that does not come",
+                expected=f"a result after {seconds} s",
+                actual=f"a result after {result.took:.1f} s",
+                hint=(
+                    "The function returned False too early, although the service could still start. Wait "
+                    "until the time is over, and then return False."
+                ),
+            )
 
 
 def _never_there(context: CheckContext, name: str, hint: str) -> None:
