@@ -19,7 +19,7 @@ LAB = "JupyterLab"  # All tests with JupyterLab belong to this group.
 
 
 def pytest_configure() -> None:
-    """Reset the handlers of the signals that a shell ignores in background commands."""
+    """Restore the handlers of signals that background commands of a shell ignore."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
@@ -52,7 +52,7 @@ def _place(item: pytest.Item) -> int:
 
 @pytest.fixture(scope="session", autouse=True)
 def state_home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Use a separate state folder and separate graphs for the commands of this worker."""
+    """Use a separate state folder and separate graphs for the commands of this pytest worker."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
         yield
@@ -60,7 +60,7 @@ def state_home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
-    """Start one browser for all tests of a worker."""
+    """Start one browser for all tests of a pytest worker."""
     with chromium() as started:
         yield started
 

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 CHAPTERS = "course_pkg.chapters"
 PRIVATE = "private_"  # The modules with an instructor's own parts have this prefix.
 PUBLIC = ("__init__.py", "programs")  # Student code may read these files of a chapter.
+# The patterns match the course's programs that do the work of an exercise.
+PROGRAMS = ("nodes/*.py", "shop/*.py", "turtlesim/driv*.py", "chapters/ch*/programs/*.py")
 FOLDER = re.compile(r"ch(\d\d)_\w+")
 IMPORTED = re.compile(r"^\s*(?:from|import)\s+course_pkg\.chapters(?:\.|\s+import\s+)ch(\d\d)_", re.MULTILINE)
 # The pattern matches the name of a needed file in a package of the workspace.
@@ -36,7 +38,8 @@ class Part:
 
     `deadline` is the time limit of the whole check in s. If the student has to repair a file, `start` is the
     `%%writefile` cell with the wrong file. Otherwise, `start` is empty. The points are divided among `goals`.
-    A part without goals gives either all of its points or no points.
+    A part without goals gives either all of its points or no points. `runs` are the programs of the course
+    that the part uses, such as "server"; during grading, all other programs of the course are hidden.
     """
 
     check: str
@@ -47,6 +50,19 @@ class Part:
     examine: Callable[[CheckContext], None]
     start: str = ""
     goals: tuple[Goal, ...] = ()
+    runs: tuple[str, ...] = ()
+
+    @property
+    def hidden(self) -> tuple[str, ...]:
+        """The paths of the course's programs that the student's code cannot read during grading.
+
+        These are all programs that are not in `runs`, and their compiled files.
+        """
+        root = folder_of(self.check.partition(".")[0]).parents[1]
+        sources = [path for pattern in PROGRAMS for path in root.glob(pattern) if path.stem != "__init__"]
+        hidden = [path for path in sources if path.stem not in self.runs]
+        compiled = [path for each in hidden for path in each.parent.glob(f"__pycache__/{each.stem}.*.pyc")]
+        return tuple(map(str, [*hidden, *compiled]))
 
     @property
     def package_files(self) -> dict[str, list[str]]:
@@ -74,18 +90,19 @@ def part(
     deadline: float = 10.0,
     start: str = "",
     goals: Sequence[str] | Mapping[str, float] = (),
+    runs: Sequence[str] = (),
 ) -> Callable[[Callable[[CheckContext], None]], Part]:
     """Return a decorator that declares the check of the part with the id `check`, such as "05.1".
 
     `goals` are the goals of the part: the points are divided equally for a sequence, and by weight for a
     mapping. The check marks a goal with `context.fulfilled` or `context.goal`. The last goal need not be
     marked: it is fulfilled if the check passes. Without goals, a part earns its points only if the check
-    passes.
+    passes. `runs` are the programs of the course that the part, or a cell before it, starts.
     """
     divided = goals_of(check, points, goals)
 
     def declare(examine: Callable[[CheckContext], None]) -> Part:
-        return Part(check, points, goal, tuple(needs), deadline, examine, start, divided)
+        return Part(check, points, goal, tuple(needs), deadline, examine, start, divided, tuple(runs))
 
     return declare
 

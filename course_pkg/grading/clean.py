@@ -16,30 +16,30 @@ from course_pkg.types.fields import Plain
 LONG = 4_000  # LONG is the maximum number of characters of a text with several lines.
 SHORT = 300  # SHORT is the maximum number of characters of one line.
 NAME = 60  # NAME is the maximum number of characters of a file name.
-CODE = 20_000  # CODE is the maximum number of characters of a part's code.
+CODE = 20_000  # CODE is the maximum number of characters of the student's code for one part.
 LINES = 200
 ITEMS = 1_000  # ITEMS is the maximum number of entries of a list in a record.
 
 ANSI = re.compile(
-    # This alternative matches sequences that set a title or make a link.
+    # The next line matches escape sequences that set the title of the terminal or make a link.
     r"\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)?"
-    # This alternative matches sequences that set colours or move the cursor.
+    # The next line matches escape sequences that set colours or move the cursor.
     r"|(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]?"
-    r"|\x1b[PX^_][^\x1b]*(?:\x1b\\)?"  # This alternative matches strings that control the terminal.
+    r"|\x1b[PX^_][^\x1b]*(?:\x1b\\)?"  # This part matches strings that control the terminal.
     r"|\x1b[ -/]*[0-~]?"
 )
 UNSEEN = re.compile(
-    # This class contains the control characters; `text` handles tab, line feed and return.
+    # The next line contains all control characters except tab, line feed and carriage return.
     "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f"
-    # These characters reverse or hide other characters.
+    # The next two lines contain characters that change the direction of the text, or are invisible.
     "\u00ad\u061c\u180e\u200b\u200e\u200f\u2060-\u206f\ufeff\ufff9-\ufffb"
     "\u202a-\u202e\U000e0000-\U000e007f]"
 )
-# The pattern matches halves of surrogate pairs, and codes that are not characters.
+# ILLEGAL matches halves of surrogate pairs, and code points that are not characters.
 ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 BREAKS = re.compile("\r\n?|[\u2028\u2029]")
-# A formula begins with one of these characters; the last four are full-width characters, which some
-# spreadsheets also accept.
+# In a spreadsheet, a formula begins with a character in FORMULA; only some spreadsheets accept the last four
+# (full-width characters).
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
@@ -70,12 +70,12 @@ def code(value: object, limit: int = CODE) -> str:
 
 
 def html(value: object, limit: int = LONG) -> str:
-    """Return a text for a page, with its markup escaped."""
+    """Return `value` as text for an HTML page; characters such as < are escaped."""
     return escape(text(value, limit), quote=True)
 
 
 def cell(value: object, limit: int = SHORT) -> str:
-    """Return one line for a cell of a table, in a form that a spreadsheet does not read as a formula."""
+    """Return `value` as one line for a cell of a table; a spreadsheet does not read it as a formula."""
     kept = line(value, limit)
     return f"'{kept}" if kept.startswith(tuple(FORMULA)) else kept
 
@@ -96,7 +96,7 @@ def _value(value: Plain) -> Plain:
 
 
 def identity(name: str) -> str:
-    """Return the name of a student for records; different names give different results."""
+    """Return a student's name in a form for records; different names give different results."""
     known = unicodedata.normalize("NFC", name)
     kept = line(known, 120)
     return kept if kept == known else f"{kept}~{_mark(name)}".strip()
@@ -105,7 +105,7 @@ def identity(name: str) -> str:
 def file_name(name: str) -> str:
     """Return a safe file name for `name`.
 
-    The result is never the name of a device or a path to another folder.
+    The returned name is never the name of a device or a path to another folder.
 
     Different names get different file names: each changed name gets a suffix. The file names differ even on a
     file system that ignores case.

@@ -42,7 +42,8 @@ from course_pkg.sandbox.linux.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 
-# Each core checks this many submissions at the same time, because a check mostly waits for responses.
+# A_CORE is the number of submissions that each processor core grades at the same time; it is more than 1,
+# because a check mostly waits.
 A_CORE = 2
 
 
@@ -71,9 +72,9 @@ class Options:
     roster: Path | None = None
     moodle_worksheet: Path | None = None
     points: Path | None = None
-    # The value is "all", "none" or "missing", and selects the students whose notebooks nbval runs.
+    # nbval runs the notebooks of all students ("all"), of students with missing points ("missing"), or none.
     validate: str = "missing"
-    flags: tuple[str, ...] = ()  # These kinds of flags are searched; an empty tuple means all kinds.
+    flags: tuple[str, ...] = ()  # Only these kinds of flags are reported; an empty tuple means all kinds.
 
 
 def grade(options: Options) -> int:
@@ -112,8 +113,8 @@ def grade(options: Options) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("\nStopped. Type the same command again to continue.\n")
         sys.stderr.flush()
-        # Without this call, the threads would wait until their notebooks have ended. The exit of this process
-        # also ends the processes that the threads run.
+        # os._exit() does not wait for the threads that grade notebooks. It also ends the processes of these
+        # threads.
         os._exit(130)
     graded = best_attempts([_with_lateness(points.weighed(each), policy) for each in graded])
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
@@ -135,7 +136,7 @@ def grade(options: Options) -> int:
 def _print_end(
     out: Path, earlier: Earlier, graded: Sequence[Grade], rest: Sequence[Grade], took: float
 ) -> None:
-    """Print the changes since the last run, the unchanged results, and the last line."""
+    """Print the changes since the last run, the earlier results that stay, and a summary line."""
     lines = []
     if earlier.grades:
         found = changes(earlier.grades, [*graded, *rest])
@@ -171,7 +172,7 @@ def grade_one(
 ) -> int:
     """Grade one notebook and write the result into the file `out`.
 
-    A job array of a cluster uses this function.
+    Each job of a cluster's job array calls this function.
     """
     require_references()
     found = submissions(notebook)
@@ -189,19 +190,19 @@ def grade_one(
 
 
 def _is_class(source: Path) -> bool:
-    """Return whether the source contains all students' submissions, not only one notebook."""
+    """Return whether `source` contains the submissions of a class, not only one notebook."""
     return not (source.is_file() and NOTEBOOK.fullmatch(source.name))
 
 
 def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Grade]) -> ClassList:
-    """Return the students who submitted in this or an earlier run, and the missing students."""
+    """Return the students who submitted in this or an earlier run, and the missing students of the roster."""
     there = [each for each in handed_in if not each.nothing and not (isinstance(each, Grade) and each.absent)]
     return lists.matched(origins_of(there), source)
 
 
 def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> Deadlines:
     """Return the deadlines, with the extensions in the roster."""
-    # This call raises an error for an invalid number of days before the grading begins.
+    # If the roster contains an invalid number of days, this call raises an error before the grading begins.
     extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
     zone = zone_of(options.time_zone) if options.time_zone else None
@@ -211,7 +212,7 @@ def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> D
 def _dated(
     options: Options, found: Sequence[Submission], due: Deadlines, table: LateTable | None
 ) -> list[Submission]:
-    """Return the submissions to grade; each submission has its number of late days."""
+    """Return the submissions to grade; each submission contains its late days."""
     zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
     asked = bool(options.deadlines or options.times)  # Without a deadline, times.csv is not read.
@@ -238,7 +239,7 @@ def _handed_in(options: Options, selected: Selection) -> list[Submission]:
 def _graded(
     options: Options, found: Sequence[Submission], extras: Extras, store: Store, regrade: Regrade
 ) -> Iterator[Grade]:
-    """Yield a grade for each submission: first the stored grades, and later each new grade when ready."""
+    """Yield a grade for each submission: first the stored grades, then each new grade when it is ready."""
     todo: dict[tuple[str, tuple[str, ...]], list[Submission]] = {}
     progress = Progress(total=len(found), unit="notebooks")
     for submission in found:

@@ -36,7 +36,7 @@ def _grade(options: SimpleNamespace) -> int:
 
 
 def _chapters(text: str) -> tuple[str, ...]:
-    """Return the chapters of a list such as "5,06": each number gets two digits."""
+    """Return the chapters in a text such as "5,06"; in the result, each chapter has two digits."""
     return tuple(part.strip().zfill(2) for part in text.split(",") if part.strip())
 
 
@@ -108,7 +108,7 @@ def _grade_arguments(parser: ArgumentParser) -> None:
     again.add_argument(
         "--fresh", action="store_true", help="grade all selected notebooks again, even if nothing has changed"
     )
-    parser.set_defaults(fresh=False)  # Without --fresh, the default applies; --resume sets the same value.
+    parser.set_defaults(fresh=False)  # The default value has the same effect as --resume.
     _add_common(parser)
     add_deadline_arguments(parser)
     parser.formatter_class = RawDescriptionHelpFormatter

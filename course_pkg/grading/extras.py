@@ -1,8 +1,8 @@
 """Reads an instructor's additional exercises and points from a separate folder that students never see.
 
-private_05.py   further parts for exercises of chapter 05, declared like the chapter's own checks; a part with
-                the id "05.1.1" is examined after the student's cell of exercise 05.1
-points.json     other points for the parts, see points.py
+The file private_05.py declares additional parts for the exercises of chapter 05. For example, the part
+"05.1.1" is examined after the student's cell of exercise 05.1. The file points.json sets other points for the
+parts (see points.py).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from course_pkg.setup.stamps import digest
 
 @dataclass(frozen=True)
 class Extras:
-    """The private folder, if there is one."""
+    """The folder with an instructor's private exercises and points, if there is one."""
 
     folder: Path | None = None
 
@@ -30,13 +30,13 @@ class Extras:
 
     @property
     def points(self) -> Path | None:
-        """The file with other points, if there is one."""
+        """The path of the private points.json, or None if there is no such file."""
         path = self.folder / POINTS if self.folder else None
         return path if path and path.exists() else None
 
 
 def read_extras(folder: Path | None) -> Extras:
-    """Read `folder` and declare the parts in it; raise GradingError if its contents are not valid."""
+    """Add the private parts in `folder` to the course; raise GradingError if a file is not valid."""
     if folder is None:
         return Extras()
     if not folder.is_dir():

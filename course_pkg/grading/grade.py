@@ -15,7 +15,7 @@ from course_pkg.checking.report import Report, report_from
 from course_pkg.sandbox.job import WorkFile
 
 IN_PACKAGES = "Examined in the packages, not in the cells of the notebook"
-NOTHING = "The student handed in nothing"  # The problem of an empty folder begins with this text.
+NOTHING = "The student handed in nothing"  # If a student's folder is empty, `problem` begins with this text.
 NO_TIME = "The submission time is not known, so this submission is treated as on time."
 
 
@@ -44,7 +44,7 @@ class Submission:
 
     student: str
     chapter: str  # An example is "05"; the chapter is empty if it is unknown.
-    content: bytes = field(repr=False)  # `content` is the notebook, with only the data for grading.
+    content: bytes = field(repr=False)  # `content` is the notebook, without data that grading does not need.
     origin: str  # `origin` is the path of the file in the submitted folder or archive.
     late: float = 0.0  # `late` is the number of days after the deadline.
     problem: str = ""
@@ -71,7 +71,7 @@ class Submission:
 
 @dataclass(frozen=True)
 class CellOutcome:
-    """The result of nbval for one cell of the rebuilt notebook.
+    """The result of nbval for one cell of the notebook that is graded.
 
     The result is only feedback, and earns no points.
     """
@@ -79,12 +79,12 @@ class CellOutcome:
     cell: str
     outcome: str  # The value is "passed", "failed" or "skipped".
     finding: str = ""  # `finding` is a sentence for the student, or "" for a cell that passed.
-    line: str = ""  # `line` is the first line of the cell. With it, the student can recognise the cell.
+    line: str = ""  # `line` is the first line of the cell.
 
 
 @dataclass(frozen=True)
 class Flag:
-    """A reason for the instructor to examine a student's work. A flag changes no points.
+    """A reason for the instructor to examine a student's work.
 
     Students never see a flag.
     """
@@ -93,30 +93,30 @@ class Flag:
     where: str  # `where` is the part, such as "05.1", or the path of a file.
     words: str  # `words` is a sentence about the reason for the flag.
     line: int = 0  # `line` is the line number in the cell or file, or 0 for the whole cell or file.
-    evidence: str = ""  # `evidence` is the text of the line.
-    others: tuple[str, ...] = ()  # The work of these students is similar.
+    evidence: str = ""  # `evidence` is the text of the line `line`.
+    others: tuple[str, ...] = ()  # These students have a similar answer.
 
 
 @dataclass(frozen=True)
 class Grade:
-    """The grade of one submission: a report for each part, in the order of the reference notebook."""
+    """The grade of one submission: a report for each part, in the order of the course's notebook."""
 
     student: str
     chapter: str
     reports: tuple[Report, ...]
     notes: tuple[str, ...] = ()  # Each note describes something unusual about the notebook.
-    cells: tuple[CellOutcome, ...] = ()  # `cells` are the results of the cells in nbval, if nbval was run.
+    cells: tuple[CellOutcome, ...] = ()  # `cells` contains the result of each cell if nbval ran the notebook.
     sandboxed: bool = True  # `sandboxed` is False if the submission ran without a sandbox.
     late: float = 0.0  # days
     factor: float = 1.0  # The points of a late submission are multiplied by this factor.
-    key: str = ""  # `key` is a digest of the submission, the reference and the checks.
+    key: str = ""  # `key` is a digest of the submission, the solution and the checks.
     origin: str = ""
     problem: str = ""  # `problem` is the reason why no part was examined, or "".
     # `code` contains the student's code of each examined part.
     code: dict[str, str] = field(default_factory=dict)
     private: tuple[str, ...] = ()  # Students see the points of these parts, but not the reports.
     handed_in: str = ""  # `handed_in` is the digest of the submission.
-    flags: tuple[Flag, ...] = ()  # Only the instructor sees the flags.
+    flags: tuple[Flag, ...] = ()
     # `absent` is True if the grade is from an earlier run, and this run has no submission of the student for
     # the chapter.
     absent: bool = False
@@ -152,7 +152,7 @@ class Grade:
         return replace(self, reports=tuple(shown), code=code, flags=())
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the grade as plain data."""
+        """Return the grade as data that can be stored as JSON."""
         return {**asdict(self), "reports": [report.as_dict() for report in self.reports]}
 
 
@@ -163,7 +163,7 @@ def _unreviewed(report: Report) -> Report:
 
 
 def grade_from(data: dict[str, Any]) -> Grade:
-    """Return the grade from `data`, the result of `as_dict`."""
+    """Return the grade that the method `as_dict` converted into `data`."""
     known = {
         **data,
         "reports": tuple(report_from(each) for each in data["reports"]),

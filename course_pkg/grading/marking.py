@@ -1,4 +1,4 @@
-"""Grades a submission: rebuild the notebook, run each part, and read the reports of the check runner."""
+"""Grades a submission: builds the graded notebook, runs each part, and reads the check runner's reports."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ from course_pkg.grading.rebuild.rebuilder import Rebuilt
 from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
 Run = Callable[[PartJob], PartResult]
-# A part is run at most this many times. It is run again if a sandbox worker fails, because an answer cannot
-# cause this failure.
 LONGEST_CODE = 20_000  # LONGEST_CODE is the maximum number of characters of a part's code in the feedback.
+# TRIES is the maximum number of runs of a part. A part is run again if a sandbox worker fails, because an
+# answer cannot cause this failure.
 TRIES = 2
 
 
 @dataclass(frozen=True)
 class Answers:
-    """A student's answers for a chapter, in packages and in the rebuilt notebook.
+    """A student's answers for a chapter: files in submitted packages, and cells of the notebook.
 
-    A package replaces the student's src/PACKAGE. If the package contains all files of a part, the part is
-    examined in the package, and the notebook's cells are not run. The student may have changed the files in
-    an editor. If a file is not in the package, the cell that writes this file is used. `problem` says why
-    there is no notebook.
+    A submitted package replaces the package that the cells of the notebook write into src. If the package
+    contains all files of a part, the part is examined in the package, and the notebook's cells are not run,
+    because the student may have changed the files in an editor. If a file is not in the package, the cell
+    that writes this file is used. `problem` says why there is no notebook.
     """
 
     packages: tuple[Package, ...]
@@ -45,7 +45,7 @@ class Answers:
         return here and len(part.needs) == sum(map(len, asked.values())) > 0
 
     def files(self, part: Part) -> tuple[WorkFile, ...]:
-        """Return the files of the packages that `part` needs, with paths below src."""
+        """Return all files of the packages that `part` needs; their paths begin with src."""
         named = [each for each in self.packages if each.name in part.package_files]
         return tuple(file.below(f"src/{each.name}") for each in named for file in each.files)
 
@@ -74,7 +74,7 @@ class Answers:
 
 
 def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: bool) -> str:
-    """Return the key of this grade: a digest of all data that affect the grade."""
+    """Return the key of a submission's grade: a digest of all data that affect the grade."""
     digest = hashlib.sha256(submission.digest.encode())
     for text in (course_digest(), extras.digest, str(sandboxed), validate):
         digest.update(b"\0" + text.encode())
@@ -136,12 +136,14 @@ def _examined(planned: PartPlan, answers: Answers, run: Run, seed: int) -> Repor
             return _not_attempted(planned, " ".join(["The cell was not changed.", *answers.lacking(part)]))
         answer = notebook.answers[exercise]
         cells = (*needed(answer, planned.before, _above(notebook.notebook, exercise)), answer)
-    job = PartJob(part.check, planned.before, cells, planned.after, seed, part.deadline, files=files)
+    job = PartJob(
+        part.check, planned.before, cells, planned.after, seed, part.deadline, files=files, hidden=part.hidden
+    )
     return _reported(planned, _run(job, run))
 
 
 def _run(job: PartJob, run: Run) -> PartResult:
-    """Run a part. If there was no verdict, run the part again, but not after an answer that ran very long."""
+    """Run a part. If the check gave no verdict, run the part again, unless the answer ran for a long time."""
     for _ in range(TRIES):
         try:
             result = run(job)
@@ -164,7 +166,7 @@ def _above(notebook: Notebook, exercise: str) -> Sequence[str]:
 
 
 def _reported(planned: PartPlan, result: PartResult) -> Report:
-    """Return the check runner's report; if the part failed, add the error of the student's cell."""
+    """Return the check runner's report; if the part failed, add the error that the student's cell raised."""
     part, report = planned.part, result.report
     if report is None:
         verdict = Verdict.UNDECIDED if result.lost else Verdict.FAILED
@@ -173,7 +175,7 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
     if report.verdict is Verdict.PASSED:
         return report
     if report.verdict is Verdict.UNDECIDED:
-        # The part counts as failed, because an answer can prevent the check from finishing.
+        # The part counts as failed, because a student's answer can prevent the check from finishing.
         note = f"No points, because the check could not finish: {report.note}"
         return Report(part.check, Verdict.FAILED, part.goal, 0, part.points, note=note, inconclusive=True)
     errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]

@@ -1,6 +1,6 @@
 """The parts of a chapter, and the cells that each part needs.
 
-The data are computed once for all submissions.
+A plan is computed once, and used for all submissions.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from course_pkg.setup.stamps import digest
 
 @dataclass(frozen=True)
 class PartPlan:
-    """One part: its check, and the cells of the reference that run before and after the answer."""
+    """One part: its check, and the code of the course that runs before and after the student's answer."""
 
     part: Part
     before: str
@@ -39,7 +39,7 @@ class PartPlan:
 
 @dataclass(frozen=True)
 class Plan:
-    """A chapter: its parts in order, and the object that puts answers into the reference notebook."""
+    """The parts of a chapter; `rebuilder` puts a student's answers into the chapter's solution notebook."""
 
     chapter: str
     rebuilder: Rebuilder
@@ -47,7 +47,7 @@ class Plan:
 
 
 def plan(chapter: str) -> Plan:
-    """Return the plan of a chapter, such as "05"."""
+    """Return the plan for grading a chapter, such as "05"."""
     rebuilder = Rebuilder(read(NotebookStore().solutions([chapter])[0]))
     return Plan(chapter, rebuilder, tuple(map(_planned, parts_of(chapter))))
 

@@ -1,12 +1,10 @@
 """points.json: how an instructor divides the points among the parts and their goals.
 
-{
- "05.1": 4,                                the part has 4 points, divided in the author's ratio
- "05.3": {"GOAL": 0.5, "GOAL": 1.5},       the points of each goal, with at most two decimals
- "05.4": "all-or-nothing",                 only a pass earns points
- "05.5": {"all-or-nothing": 4},            the same, with 4 points
- "all parts": "all-or-nothing"             the default for all parts that the file does not contain
-}
+The entry "05.1":4 gives 4 points to the part 05.1; these points are divided among the goals in the author's
+ratio. The entry "05.3":{"GOAL":0.5,"GOAL":1.5} sets the points of each goal, with at most two decimals. The
+entry "05.4":"all-or-nothing" means that only a pass earns points. The entry "05.5":{"all-or-nothing":4}
+means the same, with 4 points. The entry "all parts":"all-or-nothing" is the default for all parts that the
+file does not contain.
 
 A stored result contains the goals that were reached. Therefore, points can be computed again without running
 a check.
@@ -68,8 +66,8 @@ class PointsTable:
 def read_points(path: Path | None) -> PointsTable:
     """Return the points of all parts; points in the file at `path` replace the author's points.
 
-    Private parts must be declared before this call. Raises GradingError, with the position in the file and a
-    correction, if the file is not valid.
+    If there are private parts, call read_extras() before this function. Raises GradingError if the file is
+    not valid; the message contains the position in the file and a correction.
     """
     known = {part.check: part for chapter in chapters() for part in parts_of(chapter)}
     given = _read(path) if path else {}
@@ -142,7 +140,7 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _worth(part: Part, given: Any, path: Path | None) -> Worth:  # noqa: ANN401 -- any JSON value
-    """Convert the value of `part` in the file into the points of the part and of its goals."""
+    """Convert `given`, the value of `part` in the file, into the points of the part and of its goals."""
     if given == ALL_OR_NOTHING:
         return _all_or_nothing(part, part.points)
     if isinstance(given, dict):
@@ -197,8 +195,8 @@ def _with_points(part: Part, shares: Sequence[float]) -> tuple[Goal, ...]:
 def _points(value: Any, where: str, path: Path | None) -> float:  # noqa: ANN401 -- any JSON value
     """Return `value` as a number of points.
 
-    Raises GradingError if the value is not valid; `where` describes the place of the value in the error
-    message.
+    Raises GradingError if the value is not valid. The error message contains `where`, the place of the value
+    in the file.
     """
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         form = f'"{ALL_OR_NOTHING}", or an object with the points of each goal'

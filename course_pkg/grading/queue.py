@@ -38,18 +38,18 @@ AHEAD = 2  # At most this many tasks per worker are submitted at the same time, 
 
 @dataclass(frozen=True)
 class Task:
-    """One submission, and the options for its grade."""
+    """One submission, and the options with which it is graded."""
 
     submission: Submission
     secret: str
     key: str
     sandboxed: bool
     private: str = ""  # `private` is the path of an instructor's private folder, or "".
-    # `validate` selects the notebooks that nbval runs: "all", "none", or "missing" for notebooks that do not
+    # nbval runs the notebook if `validate` is "all", or if `validate` is "missing" and the notebook does not
     # have all points.
     validate: str = "none"
-    # Only these parts are graded; an empty tuple means all parts. If the tuple is not empty, nbval does not
-    # run.
+    # `parts` contains the parts that are graded; an empty tuple means all parts. If the tuple is not empty,
+    # nbval does not run.
     parts: tuple[str, ...] = ()
 
     def grade(self) -> dict[str, Any]:
@@ -77,7 +77,7 @@ class Pool:
 
 
 def grade_all(tasks: Iterable[Task], pool: Pool) -> Iterator[tuple[Task, Grade]]:
-    """Yield each task with its grade as soon as the grade is ready. Only a few tasks wait in the queue.
+    """Yield each task with its grade as soon as the grade is ready.
 
     Raises GradingError if the cluster has ended.
     """
@@ -117,13 +117,13 @@ def pool_of(scheduler: str, jobs: int) -> Iterator[Pool]:
 
 @cache
 def _tools(_pid: int, _thread: int, sandboxed: bool, private: str) -> SandboxWorker:
-    """Return the sandbox worker of one thread; the worker ends with the thread."""
+    """Return the sandbox worker of this thread; each thread has a separate worker."""
     return SandboxWorker(sandboxed=sandboxed, private=private)
 
 
 @cache
 def _declare(_pid: int, private: str) -> None:
-    """Declare the private parts in this process."""
+    """Add the private parts to the course in this process."""
     read_extras(Path(private) if private else None)
 
 

@@ -15,9 +15,9 @@ SHOWN = 3  # SHOWN is the maximum number of names in the message.
 def require_references(asked: Sequence[str] = (), root: Path | None = None) -> None:
     """Raise GradingError if the solution or the fixtures of a chapter in `asked` are missing.
 
-    By default, the files of all chapters are checked. Grading finds the chapter of a submission by comparing
-    the submission with all solutions. Therefore, without the solution, all students of the chapter would get
-    no points. `root` is the checkout.
+    By default, the files of all chapters are checked. Grading finds the chapter of a submission by a
+    comparison with all solutions. Therefore, without the solution of a chapter, submissions for this chapter
+    would get no points. `root` is the checkout.
     """
     missing = list(_missing(asked or chapters(), NotebookStore(root).root))
     if missing:
@@ -30,7 +30,7 @@ def require_references(asked: Sequence[str] = (), root: Path | None = None) -> N
 
 
 def _missing(wanted: Sequence[str], root: Path) -> Iterator[str]:
-    for chapter in sorted(set(wanted) & set(chapters())):  # An unknown chapter gets another error message.
+    for chapter in sorted(set(wanted) & set(chapters())):  # Another function reports unknown chapters.
         fixtures = Path("course_pkg", "chapters", folder_of(chapter).name, "fixtures.py")
         for path in (Path("solutions", notebook_of(chapter)), fixtures):
             if not (root / path).is_file():

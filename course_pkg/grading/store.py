@@ -18,7 +18,7 @@ NOBODY = ""
 
 
 def handed_in(grade: Grade, submission: Submission) -> Grade:
-    """Return the grade of a notebook, with the student and the origin of this submission."""
+    """Return `grade` with the data of `submission`, such as the student's name."""
     return replace(
         grade,
         student=submission.student,
@@ -32,9 +32,9 @@ def handed_in(grade: Grade, submission: Submission) -> Grade:
 class Store:
     """The finished grades; each grade has a key.
 
-    Each file is complete, and no file contains a student's name.
+    Each file is written completely or not at all, and no file contains a student's name.
 
-    Only the instructor can read the folder, because it contains the seed of the checks' random inputs.
+    Only the instructor can read the stored files, because they contain the seed of the checks' random inputs.
     """
 
     def __init__(self, out: Path) -> None:
@@ -48,12 +48,12 @@ class Store:
             ) from error
 
     def find(self, key: str, submission: Submission) -> Grade | None:
-        """Return the grade that is stored under `key` for this submission, or None."""
+        """Return the grade that is stored under `key`, with the data of `submission`, or None."""
         grade = self.load(key)
         return handed_in(grade, submission) if grade else None
 
     def load(self, key: str) -> Grade | None:
-        """Return the grade that is stored under `key`, or None; the grade contains no student."""
+        """Return the grade that is stored under `key`, or None; this grade contains no student's name."""
         try:
             return grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
         except (OSError, ValueError, KeyError, TypeError):
@@ -62,7 +62,7 @@ class Store:
     def keep(self, grade: Grade) -> None:
         """Store `grade` under its key, unless a part could not be examined.
 
-        In that case, the next run examines the part again.
+        If a part could not be examined, the next run examines the part again.
         """
         if any(report.verdict is Verdict.UNDECIDED for report in grade.reports):
             self.drop(grade.key)
@@ -87,7 +87,7 @@ class Store:
 
 
 def _secret(path: Path) -> str:
-    """Return the secret of this folder; the first caller creates it."""
+    """Return the secret of a results folder; if there is no secret, create one."""
     draft = path.with_name(f".{path.name}.{os.getpid()}")
     if not path.exists():
         draft.touch(mode=0o600)

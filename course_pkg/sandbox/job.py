@@ -59,7 +59,7 @@ class PartJob:
     """One part: the cells to run, and the check to run after them.
 
     `before` and `after` are cells of the reference notebook. `answers` are the student's cells; the last cell
-    is the answer of this part.
+    is the answer of this part. In a sandbox, the processes of the part cannot read the paths in `hidden`.
     """
 
     check: str
@@ -71,6 +71,7 @@ class PartJob:
     setup_timeout: float = SETUP_TIMEOUT
     answer_timeout: float = ANSWER_TIMEOUT
     files: tuple[WorkFile, ...] = ()
+    hidden: tuple[str, ...] = ()
 
     @property
     def limit(self) -> float:
@@ -86,7 +87,8 @@ def job_from(text: str | bytes) -> PartJob:
     """Return the job from the output of `as_json`."""
     fields = json.loads(text)
     files = tuple(WorkFile(**each) for each in fields["files"])
-    return PartJob(**{**fields, "answers": tuple(fields["answers"]), "files": files})
+    lists = {name: tuple(fields[name]) for name in ("answers", "hidden")}
+    return PartJob(**{**fields, **lists, "files": files})
 
 
 @dataclass(frozen=True)

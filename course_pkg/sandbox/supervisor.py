@@ -7,7 +7,7 @@ import shutil
 import signal
 import socket
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
@@ -58,7 +58,7 @@ def supervise(
     namespaces.adopt_orphans()
     with os.fdopen(job_file, "rb") as file:
         job = job_from(file.read())
-    folder = _make_folder(isolation)
+    folder = _make_folder(isolation, job.hidden)
     port = MASTER_PORT if isolation.namespaces else free_port()
     with socket.create_server(("127.0.0.1", 0)) as listener, open("/proc/self/ns/net") as network:
         _set_environment(folder, port, listener.getsockname()[1])
@@ -80,16 +80,18 @@ def supervise(
     os._exit(status)
 
 
-def _make_folder(isolation: Isolation) -> str:
+def _make_folder(isolation: Isolation, hidden: Sequence[str]) -> str:
     """Return the part's work folder.
 
-    In a sandbox, first create a network and a hostname for this part only.
+    In a sandbox, first create a network and a hostname for this part only, and hide the paths in `hidden`.
     """
     if isolation.users:
         return users.make_folder(isolation.users)
     if not isolation.namespaces:
         return tempfile.mkdtemp(prefix="course-grading-")
     namespaces.unshare(namespaces.MOUNT | namespaces.NETWORK | namespaces.IPC | namespaces.HOSTNAME)
+    for path in hidden:
+        namespaces.hide(path)
     namespaces.start_loopback()
     namespaces.mount_memory("/student", size=confinement.DISK, files=confinement.FILES)
     return "/student"

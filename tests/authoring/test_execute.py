@@ -37,7 +37,7 @@ PLOT = (
 
 
 def solution(root: Path, *cells: Cell) -> Path:
-    """Write a solution with `cells` for chapter 05, and return its path."""
+    """Write a solution notebook of chapter 05 with the cells `cells`, and return the path of the notebook."""
     (root / "solutions").mkdir()
     path = root / "solutions" / "05_write_a_server.ipynb"
     path.write_text(json.dumps(book(*cells)))
@@ -45,7 +45,7 @@ def solution(root: Path, *cells: Cell) -> Path:
 
 
 def test_an_executed_solution_is_stable_and_valid(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A second run does not change the stored file, and nbval passes."""
+    """A second execution does not change the stored notebook, and nbval accepts this notebook."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     path = solution(tmp_path, code(SET_UP, id="set-up"), exercise(source=SERVER), check())
     execute(["05"], tmp_path)
@@ -58,7 +58,7 @@ def test_an_executed_solution_is_stable_and_valid(tmp_path: Path, monkeypatch: p
 
 
 def test_a_figure_is_a_stable_svg_that_nbval_does_not_compare(tmp_path: Path) -> None:
-    """In every run, the SVG is the same, and nbval compares only the plain text."""
+    """Each execution stores the same SVG, and nbval compares only the plain text of the figure."""
     set_up = code('from course_pkg import join\nnode = join("chapter_05")', id="set-up")
     path = solution(tmp_path, code(PLOT, id="early"), set_up, code(PLOT, id="plot"))
     execute(["05"], tmp_path)
@@ -80,7 +80,7 @@ def test_a_figure_is_a_stable_svg_that_nbval_does_not_compare(tmp_path: Path) ->
 
 
 def test_a_cell_that_stops_the_run_is_named(tmp_path: Path) -> None:
-    """The error message contains the id of the cell that failed, and the stored file does not change."""
+    """If a cell fails, the error message contains its id, and the stored notebook does not change."""
     path = solution(tmp_path, code("1 / 0", id="boom"))
     before = path.read_text()
     with pytest.raises(AuthoringError, match="cell boom stopped the run with ZeroDivisionError"):
@@ -89,7 +89,7 @@ def test_a_cell_that_stops_the_run_is_named(tmp_path: Path) -> None:
 
 
 def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a check fails, `course sync --execute` exits with status 1 and prints the report."""
+    """If a check fails, `course sync --execute` exits with status 1 and prints the check's report."""
     wrong = SERVER.replace("request.width * request.length", "request.width + request.length")
     path = solution(tmp_path, code(SET_UP, id="set-up"), exercise(source=wrong), check())
     before = path.read_text()
@@ -105,7 +105,7 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
 
 
 def test_a_check_without_a_report_has_not_passed() -> None:
-    """A check passes only if its output is a report of its own part. Printed text does not count."""
+    """A check cell passes only if its output is a report of its own part; printed text is no report."""
     passed = {"output_type": "execute_result", "data": {"text/plain": "05.1 passed: 2 of 2 points"}}
     printed = {"output_type": "stream", "name": "stdout", "text": "05.1 passed"}
     assert not_passed(book(_checked(passed), _checked(printed, passed), code("1"))) == {}
@@ -128,7 +128,7 @@ run_all({"05_wait": book(code(cell))}, lambda *_: None)
 
 
 def test_an_interrupt_ends_the_kernels(tmp_path: Path) -> None:
-    """After Ctrl-C, the command and its kernel exit."""
+    """After Ctrl-C, both the kernel and the program that executes the notebooks exit."""
     pid_file = tmp_path / "pid"
     with subprocess.Popen(
         [sys.executable, "-c", INTERRUPTED, str(pid_file)], stderr=subprocess.DEVNULL

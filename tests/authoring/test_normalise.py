@@ -14,7 +14,7 @@ from tests.authoring.books import book, check, code, exercise, text
 
 
 def stream(words: str, name: str = "stdout") -> dict[str, str]:
-    """Return a stream output."""
+    """Return a cell output of the type `stream`."""
     return {"output_type": "stream", "name": name, "text": words}
 
 
@@ -57,7 +57,7 @@ def test_only_parts_that_differ_between_runs_are_removed() -> None:
 
 
 def test_a_readable_traceback_stays() -> None:
-    """A traceback of the course contains no file paths, and `tidy` does not remove it."""
+    """`tidy` does not change a traceback without file paths, such as the course's own traceback."""
     lines = [HEADER, "  This cell, line 1", "    fail()", "E: v"]
     cell = code("fail()", outputs=[{"output_type": "error", "ename": "E", "evalue": "v", "traceback": lines}])
     tidy(book(cell))
@@ -65,7 +65,7 @@ def test_a_readable_traceback_stays() -> None:
 
 
 def test_another_traceback_is_reduced_to_its_last_line() -> None:
-    """`tidy` reduces a traceback that contains file paths to its error message."""
+    """If a traceback contains file paths, `tidy` keeps only the line with the error message."""
     error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["File /home/me/x.py", "E: v"]}
     cell = code("fail()", outputs=[error], execution_count=1)
     tidy(book(cell))

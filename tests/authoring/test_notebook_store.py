@@ -26,13 +26,13 @@ def root(tmp_path: Path) -> Path:
 
 
 def write(root: Path, notebook: Notebook, name: str = "05_write_a_server") -> None:
-    """Write a solution as JSON, as a front end does."""
+    """Write a solution notebook as JSON, as a notebook editor does."""
     (root / "solutions").mkdir(exist_ok=True)
     (root / "solutions" / f"{name}.ipynb").write_text(json.dumps(notebook))
 
 
 def test_sync_updates_the_notebooks(root: Path) -> None:
-    """`check` lists a missing notebook, and passes after the sync."""
+    """`course sync --check` reports a missing notebook, and passes after `course sync`."""
     with pytest.raises(AuthoringError, match=r"course sync[\s\S]*notebooks/05_write_a_server.ipynb"):
         sync(check=True, root=root)
     assert sync(root=root) == 0
@@ -75,14 +75,14 @@ def test_an_exercise_that_repairs_a_file_begins_with_the_broken_file(tmp_path: P
 
 
 def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) -> None:
-    """If a cell and its check name different files, the sync fails."""
+    """If an exercise cell and its check use different file names, the sync fails."""
     write(tmp_path, book(*repair("%%writefile elsewhere.txt\nproject(lamp_services)")), "04_define_a_service")
     with pytest.raises(AuthoringError, match=r"exercise-04-4: the check gives students a cell that begins"):
         sync(root=tmp_path)
 
 
 def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
-    """`check` reports an edited notebook, and a sync restores the notebook."""
+    """`course sync --check` reports an edited notebook, and `course sync` restores the notebook."""
     sync(root=root)
     path = root / "notebooks" / "05_write_a_server.ipynb"
     path.write_text(path.read_text() + "\n")
@@ -93,7 +93,7 @@ def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
 
 
 def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
-    """After a chapter is renamed, a sync deletes the notebook with the old name."""
+    """After a chapter is renamed, `course sync` deletes the notebook with the old name."""
     sync(root=root)
     (root / "notebooks" / "05_old_name.ipynb").write_text("{}")
     with pytest.raises(AuthoringError, match="05_old_name"):
@@ -131,7 +131,7 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
     ],
 )
 def test_each_problem_of_a_solution_is_reported(tmp_path: Path, cells: list[Cell], words: str) -> None:
-    """The error message contains the notebook's name and the problem."""
+    """For a wrong solution notebook, the error message contains the notebook's name and the problem."""
     write(tmp_path, book(*cells))
     with pytest.raises(AuthoringError, match=rf"05_write_a_server[^\n]*{words}"):
         sync(root=tmp_path)

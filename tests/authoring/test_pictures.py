@@ -1,4 +1,4 @@
-"""When a solution is stored, each panel gets a picture."""
+"""When a solution notebook is stored, the output of each panel gets a picture."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return `notebook` as the store writes it; `before` is the notebook that is already stored."""
+    """Return `notebook` as NotebookStore writes it; `before` is the notebook that was stored earlier."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)
@@ -45,7 +45,7 @@ def test_a_panel_gets_a_picture_beside_its_text() -> None:
 
 
 def test_a_plot_stays_while_nothing_changed() -> None:
-    """If neither the code nor the text output changes, the store does not replace the stored plot."""
+    """If neither the code nor the text output changes, the stored plot is not replaced."""
     first = stored(executed("<svg>1</svg>"), book())
     assert first["cells"][1]["outputs"][0]["metadata"][SVG][MADE_BY]
     assert stored(executed("<svg>2</svg>"), first) == first
@@ -53,7 +53,7 @@ def test_a_plot_stays_while_nothing_changed() -> None:
 
 @pytest.mark.parametrize("change", ["source", "text", "earlier cell", "no digest"])
 def test_a_plot_is_drawn_anew_after_a_change(change: str) -> None:
-    """If the code or the text output changes, the store replaces the plot."""
+    """If the code or the text output changes, the new plot replaces the stored plot."""
     first = stored(executed("<svg>1</svg>"), book())
     again = executed("<svg>2</svg>", source="plot(2)" if change == "source" else "plot()")
     if change == "text":
@@ -66,7 +66,7 @@ def test_a_plot_is_drawn_anew_after_a_change(change: str) -> None:
 
 
 def test_only_a_measured_picture_of_a_panel_stays() -> None:
-    """The store replaces the picture of a prediction, but not the picture of a recording."""
+    """A new run replaces the stored picture of a prediction, but not the stored picture of a recording."""
     for panel, stays in (("prediction", False), ("turtles", True)):
         first = stored(executed("<svg>1</svg>", panel=panel), book())
         first["cells"][0]["outputs"][0]["data"][SVG] = "<svg>old</svg>"
@@ -75,7 +75,7 @@ def test_only_a_measured_picture_of_a_panel_stays() -> None:
 
 
 def test_a_widget_of_another_library_gets_no_picture() -> None:
-    """The store adds pictures only to panels of the course."""
+    """Only panels of the course get a picture; a widget of another library gets no picture."""
     notebook = executed("<svg>1</svg>")
     notebook["metadata"]["widgets"][STATES]["state"]["m"]["state"]["_anywidget_id"] = "another.Widget"
     assert set(stored(notebook, book())["cells"][0]["outputs"][0]["data"]) == {"text/plain"}

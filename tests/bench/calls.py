@@ -82,8 +82,8 @@ def looks(count: int) -> None:
 
 
 # panel: compares a call through the service panel with a call through a rospy proxy. The duration of a
-# panel's call includes the conversion of the form's strings to a request, and of the response to strings. The
-# client and the server use one core each; calls of the panel and of the proxy alternate.
+# panel's call includes the conversions between the form's strings and ROS messages. The client and the server
+# use one core each; calls of the panel and of the proxy alternate.
 
 PANEL_BAR = 1.15
 
@@ -130,15 +130,15 @@ def panel_main() -> int:
     return int(ratio > PANEL_BAR)
 
 
-# robust: makes 200 payments with the solution of 12.3, and counts the errors. The node of the cash register
-# (the till) causes a fault at every third payment. The till is a separate process; the benchmark stops, kills
-# and restarts it. The till writes each payment to a file before it sends its response. These results are
-# errors: a missing payment, a payment that was made twice, a receipt without a payment, a missing receipt,
-# and a refusal that pay() does not report. A payment that has not ended 2 s after its time limit counts as a
-# hang.
+# robust: makes 200 payments with the solution of exercise 12.3, and counts the errors. The node of the cash
+# register (the till) causes a fault at every third payment. The till is a separate process; the benchmark
+# stops, kills and restarts it. The till writes each payment to a file before it sends its response. These
+# results are errors: a missing payment, a payment that was made twice, a receipt without a payment, a missing
+# receipt, and a refusal that pay() does not report. A payment that has not ended 2 s after its time limit
+# counts as a hang.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
-DEADLINE = 15.0  # A payment may take this many seconds. The restart of a killed till needs about 1 s.
+DEADLINE = 15.0  # A payment must end within this many seconds. The restart of a killed till needs about 1 s.
 GRACE = 2.0  # A payment that takes this many seconds more than DEADLINE counts as a hang.
 IN_THE_TILL = (
     "dies before it charges",
@@ -184,7 +184,7 @@ def robust_main() -> int:
 
 
 def reference() -> Callable[[str, int, float], int | None]:
-    """Return the function pay() of the chapter's solution."""
+    """Return the function pay() from the solution of chapter 12."""
     cells = json.loads(SOLUTION.read_text("utf-8"))["cells"]
     names: dict[str, Any] = {
         "rospy": rospy,
@@ -201,7 +201,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """Runs the till (the node of a cash register) in a separate process, and restarts it after each exit."""
+    """Runs the till (the node of a cash register) in a process; restarts the till after each exit."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -212,7 +212,7 @@ class Street:
         self._keeper.start()
 
     def payment(self, pay: Callable[..., int | None], cents: int, fault: str, dice: random.Random) -> str:
-        """Make a payment while the till causes `fault`.
+        """Make a payment while the till causes the fault `fault`.
 
         Return "right", "hang", or a description of the error.
         """
@@ -233,7 +233,7 @@ class Street:
         return verdict
 
     def close(self) -> None:
-        """Stop the till and the thread that restarts it."""
+        """Stop the till (the node of the cash register) and the thread that restarts it."""
         self._over.set()
         self._keeper.join(30)
         self._till.stop()
@@ -288,7 +288,7 @@ class Street:
 
 
 def books(folder: Path) -> list[dict[str, Any]]:
-    """Return all complete payments in the till's file."""
+    """Return all complete payments in the file that the till (the node of the cash register) writes."""
     path = folder / "books"
     lines = path.read_text("utf-8").splitlines() if path.exists() else []
     return [json.loads(line) for line in lines if line.endswith("}")]
@@ -349,8 +349,8 @@ def serve(folder: Path) -> None:
 # with and without recording. The result of a run is the lower quartile of its durations. The benchmark prints
 # the fastest run, because other programs on the machine can only make a run slower.
 
-# The first number limits the ratio of the durations with and without recording, for a call on a new
-# connection. The second number limits the duration of an event in µs.
+# The first number is the maximum ratio of two durations of a call on a new connection: with and without
+# recording. The second number is the maximum duration of an event in µs.
 RECORDER_BAR, EVENT_BAR = 1.03, 5.0
 NODE = """
 import json, os, statistics, sys, time
@@ -420,14 +420,14 @@ def recorder_main() -> int:
 
 
 def started(way: str, core: int) -> subprocess.Popen[bytes]:
-    """Start a server; if `way` is "recorded", the server records its calls."""
+    """Start a server; if the parameter `way` is "recorded", the server records its calls."""
     server = subprocess.Popen([sys.executable, "-c", SERVER, way, str(core), "0"])
     rospy.wait_for_service(way, timeout=20)
     return server
 
 
 def figures(way: str, core: int, calls: int) -> Figures:
-    """Run one client, and return its durations in s."""
+    """Run one client, and return the measured duration of each action in s."""
     command = [sys.executable, "-c", CLIENT, way, str(core), str(calls)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     found: Figures = json.loads(done.stdout.splitlines()[-1])
@@ -435,7 +435,7 @@ def figures(way: str, core: int, calls: int) -> Figures:
 
 
 def shown(runs: list[tuple[Figures, Figures]]) -> float:
-    """Print the shortest durations; return the ratio (recorded / bare) for calls on new connections."""
+    """Print the shortest durations; return the duration ratio (recorded / bare) for new connections."""
     ratios = []
     for name in runs[0][0]:
         bare, recorded = (1e6 * min(run[end][name] for run in runs) for end in (0, 1))
@@ -446,7 +446,7 @@ def shown(runs: list[tuple[Figures, Figures]]) -> float:
 
 
 def event() -> float:
-    """Return the duration in µs that the recorder needs for an event."""
+    """Return the time in µs that the recorder needs to record an event."""
     recorder = Recorder()
     rounds = []
     for _ in range(50):

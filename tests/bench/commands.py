@@ -10,7 +10,7 @@ from typing import NoReturn
 
 
 def run_command(commands: Mapping[str, Callable[[], int | None]]) -> NoReturn:
-    """Run the subcommand in the first argument, and pass the other arguments to this subcommand."""
+    """Run the subcommand that the first argument names, and pass the other arguments to this subcommand."""
     name = sys.argv.pop(1) if len(sys.argv) > 1 else ""
     if name not in commands:
         sys.exit(f"The first argument is a subcommand: {', '.join(commands)}.")

@@ -137,8 +137,8 @@ def processor_time(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-# fuzz: makes 10,000 random calls to the simulator, or publishes random messages. The benchmark prints whether
-# the node still runs, whether the node's state is consistent, and how much memory the node uses.
+# fuzz: sends 10,000 random calls and messages to the simulator. The benchmark prints whether the node still
+# runs, whether the node's state is consistent, and how much memory the node uses.
 
 BLOCKS = 10
 
@@ -171,7 +171,7 @@ def fuzz_main() -> None:
 # usage: nodes.py faults [ROUNDS] [FAULT …]
 # For each fault, the benchmark prints the median and the maximum duration (s), and how often a node, topic,
 # service, process, listening port or environment variable remained. The benchmark also measures the start and
-# the end of a plain node, because a fault with a server cannot be faster.
+# the end of a plain node, because a fault that starts a server cannot be faster.
 
 BOUND = 3.0  # The benchmark counts the rounds that take longer than this many seconds.
 BARE = """
@@ -202,7 +202,7 @@ def bare_round() -> float:
 
 
 def measured(label: str, rounds: int, turn: Callable[[], float]) -> tuple[float, float, int]:
-    """Run `turn` several times.
+    """Call the function `turn` several times.
 
     Print and return the median and the maximum duration in s, and the number of rounds that changed the
     graph.

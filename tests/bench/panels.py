@@ -55,8 +55,8 @@ NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
 RATE = 5  # Each topic has this rate in Hz.
 
-# This program is a node. Its arguments name the topics that it publishes, and the topics to which it
-# subscribes.
+# This program is a node. The arguments are the topics that the node publishes, and the topics to which the
+# node subscribes.
 SPEAKER = """
 import sys
 import rospy
@@ -141,7 +141,7 @@ def idle() -> float:
 
 
 def busy() -> tuple[float, Counter[str]]:
-    """Return the percentage of a core and the number of updates while 20 nodes use 40 topics."""
+    """Return the panel's percentage of a core and its number of updates while 20 nodes use 40 topics."""
     topics = [f"/topic_{number}" for number in range(TOPICS)]
     commands = [
         [f"robot_{number}", ",".join(topics[number::NODES]), ",".join(topics[(number + 7) % NODES :: NODES])]
@@ -290,7 +290,7 @@ def call(number: int, at: float) -> list[Event]:
 
 
 # topic: measures the CPU time of a topic panel, the number of its updates, and the accuracy of its rate. A
-# real kernel runs the panel. Instead of a page, a client reads the kernel's messages.
+# real kernel runs the panel. The benchmark opens no page; a client reads the kernel's messages.
 
 TOPIC_WATCH = 10.0  # s
 TOPIC_BAR = 5.0  # The panel may use at most this percentage of a core at 100 Hz.
@@ -355,7 +355,7 @@ def spent(pid: int) -> float:
 
 
 def watch(client: BlockingKernelClient, pids: list[int]) -> tuple[list[float], float, float]:
-    """Return each process's percentage of a core, the updates per second, and the kB per second."""
+    """Return the CPU use of each process (% of a core), the updates per second, and the kB per second."""
     before, began, updates, size = [spent(pid) for pid in pids], time.monotonic(), 0, 0
     while (left := began + TOPIC_WATCH - time.monotonic()) > 0:
         try:

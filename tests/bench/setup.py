@@ -161,7 +161,7 @@ def import_time(statement: str) -> float:
 
 
 def imports_main() -> None:
-    """Print the median difference between each import and the import of rospy."""
+    """Print the median difference in duration between each import and the import of rospy."""
     taken: dict[str, list[float]] = {name: [] for name in STATEMENTS}
     for _ in range(ROUNDS):
         peer = import_time(PEER)
@@ -173,7 +173,7 @@ def imports_main() -> None:
 
 
 # cpp: prints the duration of the builds of chapter 13 in a new workspace, and of the compilation of one file.
-# The files and the commands come from the cells of the solution.
+# The benchmark uses the files and the commands in the cells of the solution.
 
 SOLUTION = next((Path(__file__).parents[2] / "solutions").glob("13_*.ipynb"))
 CPP_BAR = 15.0  # s
@@ -201,7 +201,7 @@ def cpp_measure() -> tuple[list[float], float]:
         seconds = list(built(Path(folder)))
         from course_pkg.workspace.cpp_support import (
             compile_command,
-        )  # The import is here because `fresh` runs without the course's libraries.
+        )  # This import is inside the function because `fresh` runs without the course's libraries.
 
         source = f"{folder}/src/cpp_services/src/geometry_server.cpp"
         return seconds, timed(compile_command(source, f"{folder}/alone"), folder)

@@ -66,7 +66,7 @@ def pages_main() -> None:
 
 
 def write_notebooks(root: Path) -> None:
-    """Write 14 executed notebooks; with fewer chapters, some chapters are written twice."""
+    """Write 14 executed notebooks; if the course has fewer chapters, write some chapters twice."""
     runs, solutions = Runs(), NotebookStore().solutions()
     (root / "solutions").mkdir()
     for number, path in enumerate(islice(cycle(solutions), PAGES)):

@@ -15,7 +15,7 @@ SIZE: ViewportSize = {"width": 1280, "height": 1000}  # px
 
 @pytest.fixture(scope="session")
 def context(browser: Browser) -> Iterator[BrowserContext]:
-    """Return a browser context whose pages share a cache and may use the clipboard."""
+    """Return a browser context whose pages share a cache and have access to the clipboard."""
     context = browser.new_context(viewport=SIZE, permissions=["clipboard-read", "clipboard-write"])
     yield context
     context.close()
@@ -37,7 +37,7 @@ def _lab_page(context: BrowserContext) -> Iterator[Page]:
 
 @pytest.fixture
 def lab_page(_lab_page: Page) -> Iterator[Page]:
-    """Return the JupyterLab page that all tests of a worker share."""
+    """Return the JupyterLab page that all tests of a pytest worker share."""
     _lab_page.set_viewport_size(SIZE)
     with no_errors(_lab_page):
         yield _lab_page
@@ -45,6 +45,6 @@ def lab_page(_lab_page: Page) -> Iterator[Page]:
 
 @pytest.fixture(scope="session")
 def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    """Start one JupyterLab for all tests of a worker."""
+    """Start one JupyterLab for all tests of a pytest worker."""
     with running_lab(tmp_path_factory.mktemp("lab")) as lab:
         yield lab

@@ -1,4 +1,4 @@
-"""A real JupyterLab with its own ROS master, and functions that use it like a student."""
+"""A real JupyterLab with its own ROS master, and functions that use JupyterLab as a student does."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ def save(widget: Panel, path: Path, theme: str = "light") -> str:
 
 @contextmanager
 def page_at(browser: Browser, address: str, width: int, colours: Colours) -> Iterator[tuple[Page, list[str]]]:
-    """Open an address; yield the page with the messages of its console and the errors of its scripts."""
+    """Open an address; yield the page, and a list of its console messages and script errors."""
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
     page, words = context.new_page(), list[str]()
     page.on("console", lambda message: words.append(message.text))

@@ -155,7 +155,7 @@ def seek(graph: Locator, seconds: float) -> None:
 def test_a_recording_of_the_graph_is_played_without_a_kernel(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str
 ) -> None:
-    """The slider selects a time of the recording, and the button Play starts the recording."""
+    """The slider selects a time of the recording, and the Play button starts the playback."""
     page.set_viewport_size({"width": 560, "height": 900})
     page.goto(save(played(widget), tmp_path / "page.html", theme))
     graph = panel(page, "Graph panel")
@@ -189,7 +189,7 @@ def test_a_recording_of_the_graph_is_played_without_a_kernel(
 def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
     """The recording pauses while the panel is not visible on the page.
 
-    With reduced motion, the page shows one picture per second.
+    If the reader's system asks for reduced motion, the page shows one picture per second.
     """
     page.emulate_media(reduced_motion="reduce")
     page.goto(save(played(widget), tmp_path / "page.html"))
@@ -242,7 +242,7 @@ def test_print_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Pat
 
 
 def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """The downloaded picture is an image with a title, and with colours for light, dark and print."""
+    """The downloaded picture has a title, and colours for the light theme, the dark theme and print."""
     file = tmp_path / "graph.svg"
     file.write_text(widget.svg(), encoding="utf-8")
     page.goto(file.as_uri())
@@ -259,7 +259,7 @@ def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: P
 def test_a_panel_saved_by_an_older_release_still_shows(
     widget: GraphPanel, page: Page, tmp_path: Path
 ) -> None:
-    """A panel from an older release, without rates and namespaces, is drawn."""
+    """A panel that an older release saved, without rates and namespaces, is still drawn."""
     address = tmp_path / "page.html"
     save(widget, address)
     text = re.sub(r'"(activity|spaces)":', r'"not_\1":', address.read_text())

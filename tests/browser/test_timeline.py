@@ -68,7 +68,7 @@ def drawing(timeline: Locator) -> Locator:
 
 
 def spot(timeline: Locator, time: float, lane: int) -> tuple[float, float]:
-    """Return the position of an event in the drawing: `time` is in s, and `lane` is the node's index."""
+    """Return the position of an event in the drawing; `time` is in s, and `lane` is the node's index."""
     box = drawing(timeline).bounding_box()
     assert box is not None
     return box["width"] * (time / LENGTH + EDGE) / (1 + 2 * EDGE), 4 + 22 + 10 + lane * (22 + 23 + 12)

@@ -47,7 +47,7 @@ def cells(turtles: Locator, name: str) -> list[str]:
 def recorded() -> TurtleRecording:
     """Return a recording of 5 s.
 
-    The first turtle moves in a circle, and the second turtle appears after 3 s.
+    In the recording, one turtle moves in a circle, and a second turtle appears after 3 s.
     """
     recording = TurtleRecording()
     for number in range(100):

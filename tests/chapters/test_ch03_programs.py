@@ -279,7 +279,7 @@ def test_cashier_with_a_wrong_parameter_ends_with_a_message(settings: list[str],
 
 
 def test_random_customers_come() -> None:
-    """With _every:=0.1, customers come at random times."""
+    """With the parameter _every:=0.1, the camera sees customers at random times."""
     with run("shop_camera", "_every:=0.1"), run("detector"):
         assert detect(patience=20.0).detected
 

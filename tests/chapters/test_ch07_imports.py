@@ -84,7 +84,7 @@ def folders(tmp_path: Path) -> Iterator[CommandFolders]:
 
 
 def test_the_times_of_a_command_that_was_still_running_are_known(folders: CommandFolders) -> None:
-    """The result of a command that reached its time limit contains its CPU time."""
+    """If a command reaches its time limit, the result contains the CPU time of the command."""
     number = folders.folder([], {})["folder"]
     assert isinstance(number, int)
     sleeping = Finished(folders.run(["sleep", "60"], number, 1.0))

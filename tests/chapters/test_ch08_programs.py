@@ -22,7 +22,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @pytest.fixture
 def adder() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg add_two_ints_server` until its service is available."""
+    """Start `rosrun course_pkg add_two_ints_server`, and wait until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "add_two_ints_server"]) as process:
         process.wait_for_service("/add_two_ints")
         yield process
@@ -82,7 +82,7 @@ def test_client_of_another_definition_with_wrong_arguments() -> None:
 
 @pytest.fixture
 def on_off() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg on_off_server` until its service is available."""
+    """Start `rosrun course_pkg on_off_server`, and wait until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "on_off_server"]) as process:
         process.wait_for_service("/on_off")
         yield process
@@ -95,7 +95,7 @@ def test_on_off_returns_the_state(on_off: NodeProcess, number: str, state: str) 
 
 
 def test_on_off_refuses_other_numbers(on_off: NodeProcess) -> None:
-    """The error message contains the wrong number and the allowed numbers."""
+    """If the number is neither 0 nor 1, the error message contains this number and the allowed numbers."""
     for number in ("2", "-1", "2147483647"):
         done = terminal("rosservice", "call", "/on_off", "--", number)
         assert done.returncode == 2
@@ -119,7 +119,7 @@ def test_on_off_client_sends_either_number(on_off: NodeProcess) -> None:
 
 
 def test_on_off_client_takes_no_arguments() -> None:
-    """If the client gets an argument, it prints its usage, and its exit status is 2."""
+    """If the client gets an argument, the client prints its usage and exits with status 2."""
     done = program("on_off_client", "1")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: on_off_client")
@@ -142,7 +142,7 @@ def test_on_off_client_without_a_master() -> None:
 
 @pytest.fixture
 def switch(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg switch` until its service is available."""
+    """Start `rosrun course_pkg switch`, and wait until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "switch"]) as process:
         process.wait_for_service("/switch/reset")
         yield process
@@ -171,7 +171,7 @@ def test_set_moves_the_switch() -> None:
 
 @pytest.mark.usefixtures("switch")
 def test_set_to_the_present_position_does_not_move() -> None:
-    """If the switch already has the requested position, success is False."""
+    """If the switch already has the requested position, the field `success` is False."""
     assert move(False) == (False, "already closed")
     move(True)
     assert move(True) == (False, "already open")

@@ -18,7 +18,7 @@ KIND = "course_pkg/AddUp"
 
 @pytest.fixture
 def server() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg session_server` until its service is available."""
+    """Start `rosrun course_pkg session_server`, and wait until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "session_server"]) as process:
         process.wait_for_service("/add_up", timeout=20)
         yield process
@@ -53,7 +53,7 @@ def test_refusals_contain_the_reason() -> None:
 
 @pytest.mark.usefixtures("server")
 def test_client_with_a_rate_repeats_its_amount() -> None:
-    """With _rate:=20, the client sends its amount repeatedly until it is stopped."""
+    """With _rate:=20, the client sends its amount repeatedly until the client is stopped."""
     with NodeProcess(["rosrun", "course_pkg", "session_client", "steady", "1", "_rate:=20"]) as client:
         client.wait_for_output("after 5 calls")
     assert "Traceback" not in client.output()

@@ -43,7 +43,7 @@ def camera() -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
-    """Run the detector with a running camera and the node vision."""
+    """Run the detector with a running camera and the node `vision`."""
     with (
         run("vision", "/vision/get_loggers"),
         run("customer_detector", "/detect_customer") as process,
@@ -54,7 +54,7 @@ def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def till() -> Iterator[NodeProcess]:
-    """Run the till with a printer that has paper for twelve lines."""
+    """Run the till (the node of the cash register) with a printer that has paper for twelve lines."""
     with (
         NodeProcess(["rosrun", "course_pkg", "receipt_printer", "_paper:=12"]) as printer,
         run("till", "/till/reset") as process,

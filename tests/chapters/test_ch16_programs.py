@@ -62,7 +62,7 @@ def call(service: str, args: JSON, **more: str) -> dict[str, JSON]:
 def test_reply_to_a_call_contains_the_response(
     line: websocket.WebSocket, geometry: NodeProcess, args: object
 ) -> None:
-    """The reply contains the service, the given id, the response, and the result true."""
+    """The reply contains the service, the id of the call, the response, and the result true."""
     assert said(line, call("/getGeometry", args, id="mine")) == {
         "op": "service_response",
         "id": "mine",
@@ -84,7 +84,7 @@ FAILED_CALLS: list[tuple[str, JSON, str]] = [
 
 
 def test_failed_call_gets_its_error_message(line: websocket.WebSocket, geometry: NodeProcess) -> None:
-    """The reply contains the result false and the error message."""
+    """If a call fails, the reply contains the result false and the error message."""
     for service, args, words in FAILED_CALLS:
         answer = said(line, call(service, args))
         assert answer["result"] is False
@@ -93,7 +93,7 @@ def test_failed_call_gets_its_error_message(line: websocket.WebSocket, geometry:
 
 
 def test_message_that_is_not_a_call_gets_a_status(line: websocket.WebSocket) -> None:
-    """The bridge replies to any other message with a status of the level "error"."""
+    """If a message is not a service call, the bridge replies with a status of the level "error"."""
     for message in ("no JSON", "[]", "7", {"op": "publish"}, {"op": "call_service"}):
         answer = said(line, message)
         assert (answer["op"], answer["level"]) == ("status", "error")
@@ -172,7 +172,7 @@ def test_goal_succeeds_with_feedback(asking: Kernel) -> None:
 
 
 def test_cancelled_goal_returns_the_number_so_far(asking: Kernel) -> None:
-    """After a cancellation, the result is the number of fetched things."""
+    """After a goal is cancelled, the result contains the number of things that the robot has fetched."""
     fetched, preempted = asking.run("""
         client.send_goal(FetchGoal(things=500, seconds=0.05), feedback_cb=tell)
         assert third.wait(20)

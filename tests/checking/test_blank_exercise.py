@@ -1,4 +1,4 @@
-"""An exercise is blank only if the student has not changed it."""
+"""An exercise is blank only if the student has not changed the exercise."""
 
 from __future__ import annotations
 

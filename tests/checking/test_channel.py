@@ -63,7 +63,7 @@ def test_invalid_line_closes_the_channel(ends: tuple[Channel, socket.socket], li
 
 
 def _flood(client: socket.socket) -> None:
-    with suppress(OSError):  # The check runner closes the channel.
+    with suppress(OSError):  # If a line is too long, the check runner closes the connection.
         client.sendall(b"x" * 4 * LIMIT)
 
 

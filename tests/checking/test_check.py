@@ -72,7 +72,7 @@ def output(cells: str, state: Path, **env: str) -> str:
 def check_runners(master: PrivateMaster) -> list[str]:
     """Return the nodes of check runners on the ROS graph."""
     nodes = MasterClient(master.uri).system_state().nodes
-    return [name for name in nodes if name.startswith("/check_runner_")]
+    return [name for name in nodes if name.startswith("/client_")]
 
 
 def record(state: Path) -> dict[str, Json]:

@@ -39,7 +39,7 @@ class Switch:
 
 @pytest.fixture
 def notebook(master: PrivateMaster, tmp_path: Path) -> Iterator[NotebookKernel]:
-    """Return a kernel that runs a node and has its own record."""
+    """Return a kernel that runs a node and has its own record of results."""
     with NotebookKernel({"COURSE_STATE": str(tmp_path)}) as kernel:
         assert not kernel.run(SETUP, "setup").ename
         yield kernel
@@ -78,7 +78,7 @@ def test_syntax_error_in_the_new_version(notebook: NotebookKernel) -> None:
 
 
 def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
-    """The report says that the service still uses the handler from an earlier run."""
+    """If the service still uses the handler from an earlier run, the report says so."""
     notebook.run(HANDLER, "handler")
     notebook.run(SERVICE, "service")
     notebook.run(HANDLER.replace("area *", "2 * area *"), "handler")

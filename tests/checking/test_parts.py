@@ -23,7 +23,7 @@ USUAL, BUILT = 60, 180
 
 
 def test_an_unknown_id_gets_the_closest_ones() -> None:
-    """The error for an unknown id contains similar ids."""
+    """The error message for an unknown id contains similar ids."""
     with pytest.raises(UnknownCheck, match=r"no check '5\.1'.*'05\.1'"):
         find("5.1")
 

@@ -1,4 +1,4 @@
-"""Tests of proxies: the kernel calls the methods of an object in the check runner."""
+"""Tests of proxies, through which the kernel uses an object in the check runner."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def test_a_changed_class_changes_nothing_in_the_real_object(placed: PlacedObject
 
 
 def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: Drawer) -> None:
-    """If the method raises a built-in error, the kernel gets an error of the same class.
+    """If a method of the real object raises a built-in error, the kernel gets an error of the same class.
 
     For an error that is not built in, the kernel creates a class with the same name.
     """
@@ -258,7 +258,7 @@ def test_a_call_that_waits_ends_with_the_check(drawer: Drawer) -> None:
 
 
 def test_a_killed_kernel_leaves_no_thread(placed: PlacedObjects, drawer: Drawer) -> None:
-    """When the kernel is killed, its threads in the check runner end."""
+    """When the kernel is killed, the check runner's threads for this kernel end."""
     where = placed.place(drawer)
     program = (
         "from course_pkg.checking.kernel.object_proxy import ObjectProxies\n"

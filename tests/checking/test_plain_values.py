@@ -61,7 +61,7 @@ def test_number_with_a_wrong_eq_becomes_a_plain_number() -> None:
 
 
 def test_endless_values_are_cut() -> None:
-    """A list that contains itself and a long string are cut off."""
+    """A long string is cut off, and so is a list that contains itself."""
     endless: list[Value] = []
     endless.append(endless)
     assert "nested too deeply" in json.dumps(plain(endless))

@@ -67,7 +67,7 @@ def test_a_pass_stays_a_pass(record: StudentRecord) -> None:
     "content", ["", "{", "[]", '{"check": "05.1"}', '{"check": "05.2"}', "\udcff", "9" * 5000, "[" * 100_000]
 )
 def test_a_damaged_file_is_kept_and_named(record: StudentRecord, content: str) -> None:
-    """The report contains one message about a damaged file, and the record does not delete the file."""
+    """A damaged file of the record is not deleted, and the report contains a message about the file."""
     record.folder.mkdir(parents=True)
     path = record.folder / "05.1.json"
     damaged = content.encode("utf-8", "surrogateescape")
@@ -84,7 +84,7 @@ def test_a_damaged_file_is_kept_and_named(record: StudentRecord, content: str) -
 
 
 def test_second_damaged_file_replaces_no_file(record: StudentRecord) -> None:
-    """Each damaged file gets a new name."""
+    """Each damaged file gets a name that no other damaged file has."""
     record.folder.mkdir(parents=True)
     path = record.folder / "05.1.json"
     path.write_text("first")

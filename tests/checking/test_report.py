@@ -20,14 +20,14 @@ FAILED = Report(
 
 
 def test_pass_contains_no_values() -> None:
-    """The text of a pass contains no random values."""
+    """The report on a passed check contains no random values."""
     assertion = Assertion("it answers", True, asked="f(0.123)", expected="1", actual="1", hint="none")
     text = str(Report("05.1", Verdict.PASSED, "Answer.", 2, 2, (assertion,), printed="0.123"))
     assert text == "05.1 passed: 2 of 2 points\n  ✓ it answers"
 
 
 def test_failure_contains_call_expected_and_actual_value_and_hint() -> None:
-    """A failure shows the call, the expected value, the actual value and the hint."""
+    """The report on a failed check shows the call, the expected value, the actual value and the hint."""
     text = str(FAILED)
     for word in (
         "0 of 2 points",
@@ -65,7 +65,7 @@ def test_a_failure_at_once_has_one_thing_to_fix_first() -> None:
 
 
 def test_a_part_that_is_not_attempted_has_one_thing_to_do() -> None:
-    """The report says first what to do, and then shows the goal."""
+    """If a part is not attempted, the report first says what to do, and then shows the goal."""
     report = Report("05.1", Verdict.NOT_ATTEMPTED, "Answer.", 0, 2, note="Replace the ... in f.")
     assert str(report).splitlines()[1:] == ["  Replace the ... in f.", "  The goal: Answer."]
     assert "<ul" not in report.html()

@@ -73,7 +73,7 @@ def url(tmp_path: Path) -> Iterator[str]:
 
 
 def login(url: str, user: str, state: str = "") -> tuple[int, dict[str, str]]:
-    """Log in at the hub as `user`, and come back to the service."""
+    """Log in at the hub as `user`, and follow the redirect to the class view."""
     status, _, headers = ask(f"{url}/")
     address = urlsplit(headers["Location"])
     query = parse_qs(address.query)
@@ -104,7 +104,7 @@ def test_only_a_teacher_of_the_hub_opens_the_page(url: str) -> None:
     assert login(url, "student")[0] == 403
     assert login(url, "wrong")[0] == 403
     assert login(url, "teacher", state="forged")[0] == 403
-    assert ask(f"{url}/?token=teacher")[0] == 302  # The service ignores a token in the address.
+    assert ask(f"{url}/?token=teacher")[0] == 302  # The service ignores a token in the URL.
     assert ask(f"{url}/changes")[0] == 403
 
 

@@ -1,4 +1,4 @@
-"""Tests of the page in a browser: it updates by itself, hides names, and is accessible."""
+"""Tests of the page in a browser: the page updates without a reload, hides names, and is accessible."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ HINTS = ("That is width + length. An area is a product.", f"Return a response. {
 def opened(
     browser: Browser, url: str, width: int = 1280, colours: Colours = "light"
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page with its token, and wait until it shows its data."""
+    """Open the page with the token in the URL, and wait until the page shows its data."""
     with page_at(browser, f"{url}/?token={TEACHER}", width, colours) as (page, words):
         expect(page.get_by_role("status")).to_have_text("Live")
         yield page, words
@@ -44,7 +44,7 @@ def fill(url: str, folder: Path) -> None:
 
 
 def test_the_page_follows_the_class(browser: Browser, tmp_path: Path) -> None:
-    """A result appears without a reload.
+    """A new result appears on the page without a reload.
 
     A teacher can hide the names with the keyboard, and the names are still hidden after a reload.
     """
@@ -73,7 +73,7 @@ def test_the_page_follows_the_class(browser: Browser, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("colours", usual(1, {"light": "light", "dark": "dark"}))
 def test_the_page_is_accessible_and_fits(browser: Browser, tmp_path: Path, colours: Colours) -> None:
-    """axe-core finds no problem, no script in a result runs, and nothing overflows.
+    """axe-core finds no problem, no script in a result runs, and the page fits into the window.
 
     The test opens the page before any result was sent, and after a class has sent results.
     """

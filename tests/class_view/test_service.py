@@ -103,7 +103,7 @@ def test_a_full_disk_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 def test_a_student_is_deleted_while_the_service_runs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The page no longer shows the student's results, and the student's token is no longer valid."""
+    """After a student is deleted, the student's results are not shown, and the student's token is invalid."""
     with serving(tmp_path) as url:
         tokens, cookie = tokens_in(tmp_path), enter(url)
         send(url, tokens["s01"], result("r1", hint="Multiply."))

@@ -458,5 +458,5 @@ NODES_AND_MASTERS = (
 )
 
 ROWS = (*BUILDING, *SERVING, *CALLING, *NODES_AND_MASTERS)
-# The expected number of rows in each section.
+# The expected number of rows in each section of the table.
 COUNTS = {"Building": 10, "Serving": 13, "Calling": 15, "Nodes and masters": 14}

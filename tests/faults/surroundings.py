@@ -12,7 +12,7 @@ from course_pkg.ros.process.supervisor import descendants
 
 @dataclass(frozen=True)
 class Surroundings:
-    """The state at one moment, for the master at ROS_MASTER_URI."""
+    """The state of the machine at one moment, with the ROS graph of the master at ROS_MASTER_URI."""
 
     graph: Snapshot = field(default_factory=look)
     processes: frozenset[int] = field(default_factory=lambda: frozenset(descendants(os.getpid())))
@@ -20,7 +20,7 @@ class Surroundings:
     environment: dict[str, str] = field(default_factory=lambda: dict(os.environ))
 
     def left_behind(self) -> dict[str, object]:
-        """Return the differences between this state and the current state.
+        """Return the differences between the stored state and the current state.
 
         The function ignores new child processes of a process that already existed.
         """

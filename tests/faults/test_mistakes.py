@@ -22,7 +22,7 @@ BUILT = [each for row in ROWS for each in row.shown if isinstance(each, Builds)]
 
 
 def _params() -> Iterator[ParameterSet]:
-    """Yield all faults; the faults after the first four faults of a section are slow tests."""
+    """Yield all faults; in each section, all faults except the first four are marked as slow tests."""
     for section in COUNTS:
         rows = [row for row in ROWS if row.section == section]
         shown = [each for row in rows for each in row.shown if isinstance(each, Shows)]
@@ -30,7 +30,7 @@ def _params() -> Iterator[ParameterSet]:
 
 
 def test_the_table_is_complete() -> None:
-    """Each section has the expected number of rows, and each row has a fault or a build."""
+    """Each section of the table has the expected number of rows, and each row has a fault or a build."""
     assert Counter(row.section for row in ROWS) == COUNTS
     assert all(row.shown for row in ROWS)
 

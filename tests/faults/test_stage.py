@@ -65,7 +65,7 @@ def test_a_case_that_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
 
 
 def test_a_stage_needs_a_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master, a stage raises MasterUnreachable."""
+    """Without a master, the class Stage raises MasterUnreachable."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with pytest.raises(MasterUnreachable, match="No ROS master"):
         Stage(named("stale"))
@@ -90,7 +90,7 @@ def test_a_fault_can_be_repaired_by_hand(master: PrivateMaster) -> None:
 
 
 def test_the_tools_show_the_real_state(master: PrivateMaster) -> None:
-    """After the server was killed, each tool shows the real state of the graph."""
+    """After a server was killed, the output of each diagnosis tool shows the real state of the graph."""
     assert master.uri
     with caused("stale") as stage:
         said = {tool: probe(stage, tool).said for tool in TOOLS if tool != "again"}

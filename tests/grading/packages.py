@@ -1,4 +1,4 @@
-"""Catkin packages as students hand them in."""
+"""Catkin packages in the form in which students hand them in."""
 
 from __future__ import annotations
 

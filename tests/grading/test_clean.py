@@ -24,7 +24,7 @@ NASTY = {
 
 @pytest.mark.parametrize(("given", "kept"), NASTY.values(), ids=NASTY)
 def test_harmful_characters_are_removed(given: str, kept: str) -> None:
-    """The result contains no terminal codes and no invisible characters."""
+    """The cleaned text contains no terminal codes and no invisible characters."""
     assert clean.text(given) == kept
     assert clean.text(clean.text(given)) == kept
 

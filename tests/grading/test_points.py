@@ -53,7 +53,7 @@ def _graded(*fulfilled: str, verdict: Verdict = Verdict.FAILED) -> Grade:
 def test_points_follow_the_table(
     tmp_path: Path, table: dict[str, object], partly: float, possible: float
 ) -> None:
-    """A pass earns all points. Otherwise, each fulfilled goal earns its points."""
+    """A pass earns all points. If a part does not pass, each fulfilled goal earns its points."""
     points = read_points(_read(tmp_path, json.dumps(table)))
     assert points.weighed(_graded(MEASURED)).earned == partly
     passed = points.weighed(_graded(MEASURED, REFUSED, NAMED, verdict=Verdict.PASSED))
@@ -100,7 +100,7 @@ def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
     ],
 )
 def test_a_wrong_file_is_explained(tmp_path: Path, text: str, message: str) -> None:
-    """Each error message contains the file, the position in the file, and what to do."""
+    """For a wrong points.json, the error message contains the file, the position and what to do."""
     with pytest.raises(GradingError, match=message) as raised:
         read_points(_read(tmp_path, text))
     assert str(tmp_path / "points.json") in str(raised.value)

@@ -131,7 +131,7 @@ def test_reports_from_records(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"student": "s01"}', '"x"'])
 def test_invalid_record(tmp_path: Path, content: str) -> None:
-    """The error message contains the file name, but not the student's name."""
+    """For an invalid record, the error message contains the file name, but not the student's name."""
     path = record_path(tmp_path, "s01", "05")
     path.parent.mkdir(parents=True)
     path.write_text(content)
@@ -141,7 +141,7 @@ def test_invalid_record(tmp_path: Path, content: str) -> None:
 
 
 def test_gradescope(tmp_path: Path) -> None:
-    """The file has Gradescope's format."""
+    """The file results.json has the format that Gradescope imports."""
     write_reports(_two(), tmp_path)
     results = json.loads((tmp_path / "gradescope/s01/results.json").read_text())
     assert results["score"] == 12.1
@@ -158,7 +158,7 @@ def test_gradescope(tmp_path: Path) -> None:
 
 
 def test_canvas(tmp_path: Path) -> None:
-    """The file has Canvas's format, and the cell of a missing submission is empty."""
+    """The file canvas.csv has Canvas's format, and the cell of a missing submission is empty."""
     canvas = replace(
         _two()[0], student="lastfirst_4711", origin="lastfirst_LATE_4711_99_05_write_a_server.ipynb"
     )
@@ -175,7 +175,7 @@ def test_canvas(tmp_path: Path) -> None:
 
 
 def test_moodle(tmp_path: Path) -> None:
-    """The file has Moodle's format, and a student may be identified by user name, address or name."""
+    """The file moodle.csv has Moodle's format; a user name, an address or a name identifies a student."""
     five = _two()[2]
     moodle = replace(five, student="Full Name_12", origin="Full Name_12_assignsubmission_file_/05.ipynb")
     write_reports([five, replace(five, student="a@b.example"), moodle], tmp_path)
@@ -237,7 +237,7 @@ def test_the_class_page(tmp_path: Path) -> None:
 
 
 def test_what_was_asked_for_counts_as_possible(tmp_path: Path) -> None:
-    """The totals include a chapter that a student did not hand in."""
+    """A student's total of possible points includes a chapter that the student did not hand in."""
     five, six = (Grade("s01", each, (report(f"{each}.1"),)) for each in ("05", "06"))
     gone = replace(five, student="s03", absent=True)
     asked = Asked(
@@ -267,7 +267,7 @@ def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
 
 
 def test_failed_assertion_without_a_hint_is_counted(tmp_path: Path) -> None:
-    """The class page lists a failed assertion even if it has no hint."""
+    """The class page also lists failed assertions that have no hint."""
     failed = report("05.1", Verdict.FAILED)
     plain = replace(failed, assertions=tuple(replace(rule, hint="") for rule in failed.assertions))
     write_reports([Grade("s01", "05", (plain,))], tmp_path)
@@ -285,7 +285,7 @@ def test_empty_class_and_files_without_a_student(tmp_path: Path) -> None:
 
 
 def test_students_who_need_attention() -> None:
-    """The list contains a student with a problem or without points, but not a late student."""
+    """The list of students who need help contains students with a problem or no points, but no late ones."""
     empty = Grade("s05", "05", (report("05.1", Verdict.FAILED),))
     book = Book([*_two(), refused("s03"), refused("s04", "06"), empty])
     assert attention(book, "s01") == []
@@ -295,7 +295,7 @@ def test_students_who_need_attention() -> None:
 
 
 def test_without_walls_every_report_says_so(tmp_path: Path) -> None:
-    """Each report contains the warning once, even if the reports are written again."""
+    """Without a sandbox, each report contains one warning, even if the reports are written again."""
     write_reports([replace(grade, sandboxed=False) for grade in class_of(2)], tmp_path)
     for path in _files(tmp_path):
         assert "without a sandbox" in path.read_text(), path
@@ -407,7 +407,7 @@ def test_reports_print_and_log_nothing(
 
 
 def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
-    """The error message contains the name of the report that could not be written."""
+    """If a report cannot be written, the error message contains the name of the report."""
     (tmp_path / "out").write_text("")
     with pytest.raises(GradingError, match="No grade is lost"):
         write_reports(class_of(1), tmp_path / "out")

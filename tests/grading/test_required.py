@@ -26,7 +26,7 @@ def checkout(tmp_path: Path) -> Path:
 
 
 def test_everything_is_there(checkout: Path) -> None:
-    """With all files, grading can start."""
+    """If all files exist, grading can start."""
     require_references(root=checkout)
 
 
@@ -34,7 +34,7 @@ def test_everything_is_there(checkout: Path) -> None:
     "missing", ["solutions/05_write_a_server.ipynb", "course_pkg/chapters/ch05_write_a_server/fixtures.py"]
 )
 def test_a_missing_file_is_named(checkout: Path, missing: str) -> None:
-    """The error message contains the missing file, and other chapters can be graded."""
+    """If a file is missing, the error message contains its path, and other chapters can be graded."""
     (checkout / missing).unlink()
     with pytest.raises(GradingError, match=f"Nothing was graded.*missing: {missing}\\. .*--chapters"):
         require_references(root=checkout)

@@ -1,7 +1,7 @@
 """Tests of all steps from a platform's submissions to the file that the platform imports.
 
-The tests imitate Moodle's importgradeslib.php and locallib.php, and Canvas's gradebook_importer.rb. They also
-follow the specification of Gradescope's autograder.
+The tests imitate Moodle's importgradeslib.php and locallib.php, and Canvas's gradebook_importer.rb. The tests
+also follow the specification of Gradescope's autograder.
 """
 
 from __future__ import annotations
@@ -204,7 +204,7 @@ def test_anonymous_submissions_of_an_instructor_who_sees_names(tmp_path: Path, n
 
 
 def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> None:
-    """If a submission has one student's participant number and another name, no grade is written."""
+    """If the participant number and the name belong to different students, no grade is written."""
     source = folder(tmp_path / "in", {f"Jo New_101_assignsubmission_file_/{NAMES['05']}": notebook})
     out = tmp_path / "out"
     _, found = _graded(source, read_lists(None, _write(tmp_path / "sheet.csv", ENGLISH)), out)

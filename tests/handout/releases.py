@@ -1,4 +1,4 @@
-"""Functions for tests that release a student edition and run commands in it."""
+"""Functions with which tests release a student edition and run commands in this edition."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ def times(out: Path) -> list[list[str]]:
 def test_work_is_where_the_grader_looks(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Notebooks and packages are stored by student, and students without work are listed."""
+    """Work is stored in a folder for each student, and students without work are listed."""
     notebook = raw(handed_out("05"))
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": notebook, **packaged(), "notebooks/own.ipynb": b"{}"})
     add_home(homes, "ben", {NOTEBOOK: notebook})  # This student has moved the notebook.
@@ -146,7 +146,7 @@ def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Pat
 
 @pytest.mark.skipif(not ROOT, reason="only root can read with another user's rights")
 def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> None:
-    """Root reads only files that the student may read."""
+    """Root reads only files that the student has permission to read."""
     anna = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     ben = add_home(homes, "ben", {"notebooks/06_write_a_client.ipynb": b"2"})
     secret = ben / "ros-course" / "notebooks" / NOTEBOOK
@@ -168,7 +168,7 @@ def home_of(homes: Path, student: str) -> Home:
 
 @pytest.mark.parametrize("place", ["ros-course", "ros-course/notebooks", f"ros-course/notebooks/{NOTEBOOK}"])
 def test_no_link_is_followed(homes: Path, place: str) -> None:
-    """A link in place of a folder or a notebook is reported, but not followed."""
+    """If a link is in the place of a folder or a notebook, the link is reported, but not followed."""
     add_home(homes, "other", {f"notebooks/{NOTEBOOK}": b"secret"})
     link = homes / "anna" / place
     link.parent.mkdir(parents=True)
@@ -221,7 +221,7 @@ def test_pipes_large_files_and_large_packages_are_left_out(
 
 
 def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a home folder does not respond within the time limit, the home is reported."""
+    """If a home folder does not respond within the time limit, the folder is reported."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: signal.pause())
     [home] = homes_in(homes)
@@ -310,7 +310,7 @@ def test_a_list_of_students(
     ],
 )
 def test_a_list_that_cannot_be_used_is_refused(text: str, said: str, tmp_path: Path) -> None:
-    """The error message contains the line number, but no student's name."""
+    """For a wrong list, the error message contains the line number, but no student's name."""
     path = tmp_path / "students.csv"
     path.write_text(text, "utf-8", "surrogateescape")
     with pytest.raises(HandoutError, match=said):

@@ -8,7 +8,7 @@ from course_pkg.cli import parse
 
 
 def test_chapters_have_two_digits() -> None:
-    """`--chapters 5, 6` selects the chapters 05 and 06 for both commands."""
+    """For both commands, `--chapters 5, 6` selects the chapters 05 and 06."""
     assert parse(["release", "out", "--chapters", "5, 6"]).chapters == ("05", "06")
     assert parse(["collect", "ros-course", "out", "--chapters", "5"]).chapters == ("05",)
 

@@ -92,7 +92,7 @@ def test_changes_by_hand_are_not_overwritten(tmp_path: Path) -> None:
 
 
 def test_a_folder_inside_the_course_is_refused() -> None:
-    """A folder inside the checkout is refused."""
+    """A release into a folder inside the checkout is refused."""
     with pytest.raises(HandoutError, match="Give a folder outside"):
         refuse_inside(ROOT / "out", ROOT)
 
@@ -121,7 +121,7 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
         ("course_pkg/chapters/ch05_write_a_server/answers/first.py", False),
         ("course_pkg/chapters/ch05_write_a_server/fixtures.py", False),
         ("solutions/05_write_a_server.ipynb", False),
-        # An author may have changed these files, so the release creates them again from the solutions.
+        # The release creates these files again from the solutions, because an author can have changed them.
         ("notebooks/05_write_a_server.ipynb", False),
         ("roster.csv", False),
         ("grades/class.html", False),
@@ -129,12 +129,12 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
     ],
 )
 def test_which_files_are_copied(name: str, released: bool) -> None:
-    """A file is released only if it belongs to the package and contains no answers."""
+    """The release contains only files that belong to the package and contain no answers."""
     assert is_released(name) is released
 
 
 def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
-    """Without git's data, the release writes the same edition."""
+    """Without a git repository, the release finds the same files, and ignores __pycache__."""
     for name in git(ROOT, "ls-files", "--cached", "--others", "--exclude-standard").splitlines():
         if (ROOT / name).is_file() and not name.startswith("tests/"):
             (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -176,7 +176,7 @@ def test_the_link_for_nbgitpuller() -> None:
     ("hub", "repository"), [("hub.example.edu", REPOSITORY), (HUB, "git@git.example.edu:a/b")]
 )
 def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository: str) -> None:
-    """The error message contains the option, and says that the address must begin with https://."""
+    """For a wrong URL, the error message contains the option, and says that a URL begins with https://."""
     with pytest.raises(HandoutError, match=r"--(hub|repository) .* begins with https://"):
         pull_link(hub, repository, "main", "x.ipynb")
 
@@ -196,7 +196,7 @@ def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
 
 
 def test_a_packed_module_is_the_same_module(tmp_path: Path) -> None:
-    """A module that pack() has encoded defines the same names, but a search does not find its text."""
+    """A module that pack() has encoded defines the same names, but does not contain the source text."""
     source = '"""Text."""\n\nfrom __future__ import annotations\n\nANSWER = "lock order"\n'
     module: dict[str, object] = {"__file__": "x.py", "__name__": "x"}
     exec(compile(pack(source), "x.py", "exec"), module)  # noqa: S102 -- it is the text above

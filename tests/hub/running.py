@@ -30,10 +30,10 @@ def arguments(folder: Path, students: Sequence[str]) -> list[str]:
 def hub(
     folder: Path, students: Sequence[str], *options: str, before: Sequence[str] = ()
 ) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """Run a hub during the `with` block; yield its process and address after it has responded.
+    """Run a hub during the `with` block; wait until the hub responds, and yield its process and its address.
 
-    `before` is a command prefix. Another test may start a hub at the same time, so the port is not one of the
-    usual ports.
+    `before` is a command that runs the hub's command, such as `unshare`. Another test may start a hub at the
+    same time, so the port is not one of the usual ports.
     """
     port = [] if "--port" in options else ["--port", "0"]
     with running(*arguments(folder, students), *port, *options, before=before) as process:

@@ -114,7 +114,7 @@ class Student:
         return found
 
     def post(self, path: str, data: object) -> dict[str, Any]:
-        """Send JSON to `path` of the student's server, and return the JSON of the answer."""
+        """Send JSON to `path` of the student's server, and return the JSON of the response."""
         headers = {"X-XSRFToken": self._xsrf(f"/user/{self.name}/")}
         answer = self.session.post(f"{self._server}/{path}", json=data, headers=headers, timeout=TIMEOUT)
         assert answer.ok, answer.text

@@ -74,9 +74,9 @@ def test_a_full_disk_is_named_on_the_students_page(address: str, folder: Path) -
 
 
 def test_a_missing_home_is_reported_for_this_student_only() -> None:
-    """An account without a home folder, such as `nobody` on Debian, causes a problem.
+    """An account without a home folder, such as `nobody` on Debian, is reported as a problem.
 
-    The account that runs this test has a home folder, so it causes no problem.
+    The account that runs this test has a home folder, so this account is not reported.
     """
     missing = next(each for each in pwd.getpwall() if not os.path.exists(each.pw_dir))
     own = pwd.getpwuid(os.getuid()).pw_name

@@ -88,7 +88,7 @@ GRAPH = {
                 for kind in master.getSystemState("/hunter")[2]:
                     for _, nodes in kind:
                         for name in nodes:
-                            if "check_runner" in name:
+                            if name.startswith("/client_"):
                                 uri = master.lookupNode("/hunter", name)[2]
                                 xmlrpc.client.ServerProxy(uri).shutdown("/master", "gone")
                 time.sleep(0.01)
@@ -106,7 +106,7 @@ GRAPH = {
     "a node with the same name": """
         import os, xmlrpc.client
         master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
-        for name in ("/check_runner", "/check_runner_05_1", "/chapter_05"):
+        for name in ("/client", "/client_1_1", "/chapter_05"):
             master.registerPublisher(name, "/x", "std_msgs/String", "http://localhost:1/")
     """,
     "simulated time that never changes": """

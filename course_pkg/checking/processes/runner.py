@@ -64,7 +64,7 @@ def record(report: Report, seed: int) -> dict[str, Json]:
 def _run(part: Part, channel: Channel, seed: int) -> Report:
     if note := _not_attempted(part, channel):
         return _report(part, Verdict.NOT_ATTEMPTED, note=note)
-    with on_the_graph(part.check) as node:
+    with on_the_graph() as node:
         return _reported(part, CheckContext(part.check, channel, node, seed))
 
 

@@ -1,4 +1,4 @@
-"""What a student handed in: a submission for each chapter, and messages about the other files."""
+"""What a student handed in: a submission for each chapter, and messages about files that are not graded."""
 
 from __future__ import annotations
 
@@ -12,13 +12,12 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.submissions import submissions
 
-# The folder with the submission gets this name. The student's real name is not needed, because Gradescope
-# knows it.
+# The submission is copied to a folder with this name. Gradescope knows the name of the student.
 STUDENT = "student"
 
 
 def handed_in(folder: Path, chapters: Sequence[str]) -> tuple[list[Submission], list[str]]:
-    """Return a submission for each of `chapters`, and a message about each file that is not graded."""
+    """Return a submission for each chapter in `chapters`, and messages about files that are not graded."""
     with tempfile.TemporaryDirectory(prefix="course-autograder-") as copied:
         if folder.is_dir():
             shutil.copytree(folder, Path(copied, STUDENT), symlinks=True, ignore=_special)

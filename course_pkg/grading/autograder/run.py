@@ -1,11 +1,10 @@
 """`course autograde`: grades the submission in /autograder, and writes results.json even after an error.
 
-Gradescope starts the script `run_autograder` as root in a new container for each submission:
-
-    /autograder/source                     the unpacked zip, with settings.json and an optional folder private
-    /autograder/submission                 what the student handed in
-    /autograder/submission_metadata.json   the time of the submission, and the deadline
-    /autograder/results/results.json       the result, which the script has to write
+Gradescope starts the script `run_autograder` as root in a new container for each submission. The folder
+/autograder/source contains the unpacked zip file of the autograder: settings.json, and optionally the folder
+`private`. The folder /autograder/submission contains the files that the student handed in. The file
+/autograder/submission_metadata.json contains the time of the submission, and the deadline. The script writes
+the result into the file /autograder/results/results.json.
 
 Layout: https://gradescope-autograders.readthedocs.io/en/latest/specs/.
 """
@@ -50,7 +49,7 @@ OURS = "The autograder failed ({}). This is not a mistake in your work. Please t
 def prepare() -> int:
     """Make the checks and the solutions of this checkout unreadable for all users except root."""
     for folder in {path.parent for path in secret_paths()}:
-        (folder / "__pycache__").mkdir(exist_ok=True)  # This folder will contain the compiled fixtures.
+        (folder / "__pycache__").mkdir(exist_ok=True)  # Python writes compiled fixtures into this folder.
     for path in [*secret_paths(), Places.of().checkout / "solutions"]:
         path.chmod(0o700 if path.is_dir() else 0o600)
     return 0
@@ -116,7 +115,8 @@ def _grade(submission: Submission, points: PointsTable, run: Run) -> Grade:
 def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
     """Yield a function that runs one part of the submission.
 
-    After the deadline, the function stops the part and runs no other part.
+    If the time limit of the autograder is reached, the yielded function stops the part and runs no other
+    part.
     """
     with SandboxWorker(users=weaker, private=private) as worker:
 
@@ -136,5 +136,5 @@ def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
         finally:
             timer.cancel()
     if weaker:
-        _, lock = users.reserve()  # This call ends all processes that a killed worker has left.
+        _, lock = users.reserve()  # This call ends the processes that continue after their worker was killed.
         lock.close()

@@ -1,4 +1,4 @@
-"""The settings of an autograder, and the times in Gradescope's metadata of a submission."""
+"""The settings of an autograder, and the times in Gradescope's metadata for a submission."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from course_pkg.grading.deadlines.moments import moment_of
 
 @dataclass(frozen=True)
 class Settings:
-    """The settings that `course autograder` writes to settings.json, for the runs in the container."""
+    """The settings in settings.json; `course autograder` writes them, and the container reads them."""
 
     chapters: tuple[str, ...]
-    minutes: float  # A run has this time limit, which must be shorter than Gradescope's time limit.
+    minutes: float  # `minutes` is the time limit of a run; Gradescope's time limit must be longer.
     late_per_day: float | None = None  # percent
     late_max_days: float | None = None
 
     @property
     def policy(self) -> LatePolicy | None:
-        """The deduction for lateness, or None without a deduction."""
+        """The deduction for lateness, or None if late submissions lose no points."""
         if self.late_per_day is None and self.late_max_days is None:
             return None
         most = math.inf if self.late_max_days is None else self.late_max_days
@@ -47,9 +47,9 @@ def read_settings(path: Path) -> Settings:
 
 
 def days_late(metadata: Path) -> float | None:
-    """Return the number of days after the deadline, or None if the metadata contain no usable times.
+    """Return how many days late the submission is, or None if `metadata` contains no usable times.
 
-    If the student has an extension, the metadata contain the student's own deadline. Format:
+    If the student has an extension, Gradescope's metadata contain the student's own deadline. Format:
     https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.
     """
     try:

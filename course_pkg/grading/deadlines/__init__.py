@@ -1,1 +1,1 @@
-"""Deadlines: the times of submissions, the lateness, and the choice of the attempt that counts."""
+"""Deadlines: finds the times of submissions, computes the lateness, and chooses the attempt that counts."""

@@ -1,4 +1,4 @@
-"""Reads a CSV table; in each row, the keys are the names of the columns."""
+"""Reads a CSV table in which the first line contains the names of the columns."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from course_pkg.grading.tables import table_rows
 class Row:
     """The values of a row; the keys are the names of the columns in lower case.
 
-    Error messages contain the position of the row in the file.
+    Error messages contain the line number of the row in the file.
     """
 
     where: str  # `where` is the file and the line, such as "times.csv, line 3".
     values: dict[str, str]
 
     def get(self, *columns: str) -> str:
-        """Return the first non-empty value in `columns`, or ""."""
+        """Return the first value in the columns `columns` that is not empty, or ""."""
         return next((value for name in columns if (value := self.values.get(name, ""))), "")
 
 

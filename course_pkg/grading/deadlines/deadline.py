@@ -17,7 +17,7 @@ DAY = 86_400.0  # s
 
 @dataclass(frozen=True)
 class Deadlines:
-    """The deadline of each chapter; the key "" is for each chapter without its own deadline."""
+    """The deadlines of chapters; the deadline with the key "" applies to each chapter that has no key."""
 
     by_chapter: Mapping[str, datetime]
     grace: timedelta = timedelta()
@@ -26,8 +26,7 @@ class Deadlines:
     def due(self, student: str, chapter: str) -> datetime | None:
         """Return a student's deadline for a chapter, or None; the grace period is not included.
 
-        With an extension, the deadline stays at the same time of day, even if summer time begins or ends
-        before it.
+        An extension does not change the time of day of a deadline, even if summer time begins or ends.
         """
         deadline = self.by_chapter.get(chapter, self.by_chapter.get(""))
         if deadline is None:
@@ -40,7 +39,7 @@ class Deadlines:
         return due is None or due + self.grace <= datetime.now(due.tzinfo)
 
     def days_late(self, student: str, chapter: str, submitted: datetime) -> float:
-        """Return the number of days after the end of the grace period, or 0."""
+        """Return how many days after the grace period the student submitted, or 0."""
         due = self.due(student, chapter)
         if due is None:
             return 0.0
@@ -51,7 +50,7 @@ class Deadlines:
 def deadlines(
     given: Sequence[str], grace_minutes: float, zone: tzinfo | None, extensions: Extensions
 ) -> Deadlines:
-    """Return the deadlines of the options --deadline and --grace-minutes.
+    """Return the deadlines that the options --deadline and --grace-minutes set.
 
     Each item of `given` is a time, or a chapter and a time, such as 05=2026-11-01T23:59+01:00. Raises
     GradingError if a deadline has no time zone, is not a time, or is given twice.

@@ -15,12 +15,12 @@ FOLDED = "extension days"  # The roster stores the column `extension_days` under
 
 @dataclass(frozen=True)
 class Extensions:
-    """The additional days of each student; the keys are the students' names in the grades."""
+    """The additional days of each student; the keys are students' names, as in the grades."""
 
     by_student: Mapping[str, float] = field(default_factory=dict)
 
     def days(self, student: str) -> float:
-        """Return the additional days of a student."""
+        """Return how many days are added to a student's deadlines."""
         return self.by_student.get(student, 0.0)
 
 

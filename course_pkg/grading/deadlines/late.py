@@ -21,7 +21,7 @@ LARGEST = 1_000_000  # LARGEST is the maximum number of bytes of a table.
 class LatePolicy:
     """The deduction for lateness is `per_day` percent of the points for each day that has begun.
 
-    After more than `max_days` days, no points are left.
+    A submission that is more than `max_days` days late gets no points.
     """
 
     per_day: float = 0.0
@@ -41,8 +41,8 @@ def late_policy(
 ) -> LatePolicy:
     """Return the policy from the options --late-per-day (percent) and --late-max-days.
 
-    Raises GradingError if there are late days or a deadline without a policy, if there is a policy without
-    late days and without a deadline, or if a number is out of range.
+    Raises GradingError if a number is out of range, if `table` or `deadlines` is given without a policy, or
+    if a policy is given without `table` and `deadlines`.
     """
     if (table or deadlines) and per_day is None and max_days is None:
         raise GradingError(
@@ -65,7 +65,7 @@ def late_policy(
 
 @dataclass(frozen=True)
 class LateTable:
-    """The number of days late; the keys are (student, chapter).
+    """How many days late each submission is; the keys are (student, chapter).
 
     A row with the chapter "" applies to each chapter for which the student has no other row.
     """
@@ -73,11 +73,11 @@ class LateTable:
     rows: Mapping[tuple[str, str], float]
 
     def days(self, student: str, chapter: str) -> float:
-        """Return the number of days late of this submission."""
+        """Return how many days late a student's submission for a chapter is."""
         return self.rows.get((student, chapter), self.rows.get((student, ""), 0.0))
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the submissions; for each submission in the table, use the table's late days."""
+        """Return the submissions; if the table contains a submission, its late days come from the table."""
         return [
             self._late(each)
             if (each.student, each.chapter) in self.rows or (each.student, "") in self.rows
@@ -90,7 +90,7 @@ class LateTable:
         return replace(submission, late=self.days(submission.student, submission.chapter), notes=notes)
 
     def strangers(self, submissions: Sequence[Submission]) -> int:
-        """Return the number of students in the table without a submission; their names may be misspelt."""
+        """Return how many students of the table have no submission; perhaps their names are misspelt."""
         return len({student for student, _ in self.rows} - {each.student for each in submissions})
 
 
@@ -118,7 +118,7 @@ def late_table(path: Path) -> LateTable:
 
 
 def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[str, str], float]:
-    """Return the key and the days of a row.
+    """Return the key (student, chapter) and the number of late days in a row.
 
     An error message never contains a cell, because a cell can contain a student's name.
     """

@@ -16,13 +16,13 @@ LAST, BEST = "last", "best"
 
 @dataclass(frozen=True)
 class Lateness:
-    """The deadlines of a run, and a function that returns the time at which a submission was handed in."""
+    """The deadlines of a run; the function `when` returns the time at which a submission was handed in."""
 
     deadlines: Deadlines
     when: Callable[[Submission], datetime | None]
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the submissions with their days late.
+        """Return the submissions; each submission contains its late days.
 
         Raises GradingError if there is a deadline, but no submission has a time.
         """
@@ -60,7 +60,7 @@ class Lateness:
 def attempts_to_grade(
     submissions: Sequence[Submission], attempts: str, when: Callable[[Submission], datetime | None]
 ) -> list[Submission]:
-    """Return the attempts to grade: all attempts if the best attempt counts, or else only the last ones.
+    """Return all attempts if the best attempt counts, or only the last attempts if the last attempt counts.
 
     If all attempts have known and different times, the last attempt is the attempt with the latest time.
     Otherwise, the last attempt is the attempt with the highest number or the newest file.
@@ -99,9 +99,9 @@ def _best(groups: Iterable[list[Grade]]) -> Iterator[Grade]:
 
 
 def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime | None]) -> Submission:
-    """Return the last attempt of a student.
+    """Return the last attempt of a student for a chapter.
 
-    If the times of the attempts cannot be used, the result is the last item of `given`.
+    If a time is unknown, or two times are equal, the result is the last item of `given`.
     """
     times = [when(each) for each in given]
     stamps = [moment.timestamp() for moment in times if moment]

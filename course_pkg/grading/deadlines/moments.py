@@ -15,8 +15,7 @@ ISO = re.compile(
 )
 OFFSET = re.compile(r"(?:UTC)?([+-])(\d\d):?(\d\d)", re.IGNORECASE)
 MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
-# An example is "Sunday, 1 November 2026, 11:59 PM"; the month can also come before the day. The order depends
-# on the language of Moodle.
+# Moodle writes "Sunday, 1 November 2026, 11:59 PM"; in some languages, the month comes before the day.
 WRITTEN = re.compile(
     r"(?:[a-z]+,?\s+)?(?:(?P<day>\d{1,2})\.?\s+(?P<month>[a-z]{3,9})|(?P<month2>[a-z]{3,9})\s+(?P<day2>\d{1,2})),?\s+"
     r"(?P<year>\d{4}),?\s+(?:at\s+)?(?P<hour>\d{1,2}):(?P<minute>\d\d)(?::\d\d)?\s*(?P<half>[ap]\.?m\.?)?",
@@ -43,8 +42,8 @@ def moment_of(text: str, zone: tzinfo | None) -> datetime | None:
     """Return the date and time in `text`, or None if `text` does not contain a date and time.
 
     `zone` is used if the text contains no time zone. If neither `text` nor `zone` contains a time zone, the
-    result is None. If the clock was put back, a time can occur twice; in this case, the result is the earlier
-    one.
+    result is None. At the end of summer time, one hour occurs twice; the result is then the first of the two
+    times.
     """
     text = " ".join(text.split())
     if found := ISO.fullmatch(text):
@@ -63,7 +62,7 @@ def moment_of(text: str, zone: tzinfo | None) -> datetime | None:
 
 
 def shown(moment: datetime) -> str:
-    """Return a point in time with its offset, as reports show it: 2026-11-01 23:59 +01:00."""
+    """Return a point in time as text for reports, with the offset from UTC: 2026-11-01 23:59 +01:00."""
     offset = moment.strftime("%z")
     return f"{moment:%Y-%m-%d %H:%M} {offset[:3]}:{offset[3:5]}"
 

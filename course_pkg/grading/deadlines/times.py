@@ -1,11 +1,11 @@
-"""Finds the time of a submission, in a table or in the files that a platform adds to its download.
+"""Finds the time of a submission in a table, or in the files that a platform adds to a download.
 
-times.csv                    the columns student and submitted, and optionally chapter and file; if this file
-                             is in the folder of the submissions, no option is needed
-Moodle's grading worksheet   the column "Last modified (submission)"; the row is found by the number in the
-                             folder's name
-Gradescope                   `:created_at` in submission_metadata.yml
-nbgrader                     timestamp.txt in submitted/STUDENT/ASSIGNMENT, only with `--times nbgrader`
+A table such as times.csv has the columns student and submitted, and optionally chapter and file. If times.csv
+is in the folder of the submissions, the file is used without an option. Moodle's grading worksheet contains
+the time in the column "Last modified (submission)"; a student's row is found by the participant number in the
+name of the student's folder. For Gradescope, the time is the value of `:created_at` in
+submission_metadata.yml. For nbgrader, the time is in submitted/STUDENT/ASSIGNMENT/timestamp.txt; this file is
+read only with `--times nbgrader`.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ When = Callable[[Submission], datetime | None]
 
 
 def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
-    """Return a function; for a submission, it returns the time, or None if the time is unknown.
+    """Return a function that returns the time of a submission, or None if the time is unknown.
 
     `option` is the value of --times: the path of a table, "nbgrader", "gradescope", or "". With "", the times
     come from times.csv in the folder of the submissions, or from Gradescope's metadata. `zone` applies to
@@ -81,9 +81,9 @@ class _Entry:
 
 @dataclass(frozen=True)
 class _Table:
-    """The rows of each student.
+    """The rows of a table of times, for each student.
 
-    If a submission has several files, the time of the latest file counts, because all files are graded.
+    If a submission has several times, the latest time counts, because all files are graded.
     """
 
     rows: Mapping[str, Sequence[_Entry]]
@@ -102,7 +102,7 @@ class _Table:
 def _has(submission: Submission, file: str) -> bool:
     """Return whether the submission contains `file`.
 
-    `file` is a path in the folder of all submissions or in the student's folder.
+    `file` is a path, relative to the folder of all submissions or to the student's folder.
     """
     if file in _paths(submission.origin, submission.student) and submission.content:
         return True
@@ -111,11 +111,7 @@ def _has(submission: Submission, file: str) -> bool:
 
 
 def _paths(origin: str, student: str) -> tuple[str, ...]:
-    """Return two paths of a submitted file.
-
-    The first path is relative to the folder of all submissions, and the second path is relative to the
-    student's folder.
-    """
+    """Return a file's paths relative to the folder of all submissions and to the student's folder."""
     parts = origin.split("/")
     place = next((index for index, part in enumerate(parts[:-1]) if clean.identity(part) == student), None)
     return (origin,) if place is None else (origin, "/".join(parts[place + 1 :]))
@@ -222,7 +218,7 @@ class _Nbgrader:
 
 
 def _content(source: Path, path: str, limit: int) -> bytes:
-    """Return at most `limit` bytes of a file in a folder or zip; b"" if the file cannot be read."""
+    """Return at most `limit` bytes of a file in a folder or zip, or b"" if the file cannot be read."""
     with suppress(GradingError, OSError, KeyError, ValueError, RuntimeError, zipfile.BadZipFile):
         if source.is_dir():
             return one_file(source / path).read()[:limit]

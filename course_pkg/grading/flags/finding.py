@@ -1,4 +1,4 @@
-"""Finds the flags of a class, of all kinds or of the kinds that the instructor selects."""
+"""Finds the flags in a class's submissions: all kinds of flags, or the kinds that the instructor selects."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ NONE = "none"
 
 
 def kind_names() -> list[str]:
-    """Return the names of all kinds; each name is the name of a module in `kinds`."""
+    """Return the names of all kinds of flags; each name is the name of a module in the package `kinds`."""
     return sorted(module.name for module in pkgutil.iter_modules(kinds.__path__))
 
 
 def title_of(kind: str) -> str:
-    """Return the heading of a kind for a report; for an unknown kind, return the name of the kind."""
+    """Return a report's heading for a kind of flags; for an unknown kind, return the name of the kind."""
     return str(_module(kind).TITLE) if kind in kind_names() else kind
 
 
 def wanted_kinds(names: Sequence[str]) -> list[str]:
-    """Return the kinds that the option --flags selects.
+    """Return the kinds of flags that the option --flags selects.
 
     An empty option selects all kinds, and "none" selects no kind.
 
-    Raises GradingError for a name that is not a kind.
+    Raises GradingError if a name is not a kind of flags.
     """
     known = kind_names()
     if list(names) == [NONE]:
@@ -50,10 +50,10 @@ def wanted_kinds(names: Sequence[str]) -> list[str]:
 def with_flags(
     grades: Sequence[Grade], submissions: Sequence[Submission], names: Sequence[str]
 ) -> list[Grade]:
-    """Find the flags of these kinds in the graded submissions; return the grades with their flags.
+    """Search the graded submissions for the kinds of flags `names`; return the grades with the found flags.
 
-    Submissions that do not count, such as earlier attempts, get no flags. Grades from an earlier run keep
-    their flags if this run has no submission for them.
+    Submissions that do not count, such as earlier attempts, get no flags. The flags of a grade from an
+    earlier run do not change if this run has no submission for it.
     """
     graded = {_key(grade) for grade in grades}
     counting = [each for each in submissions if each.chapter and _key(each) in graded]

@@ -1,9 +1,9 @@
 """Fingerprints of code: features that do not depend on names, comments and the order of statements.
 
-There are three kinds of features. The first is a statement in its block. The second is a pair of statements:
-one sets a name, and the other uses this name. The third is the set of all statements of a function or class.
-The order of statements is ignored, because a student who copies an answer can reorder its functions and
-independent statements.
+There are three kinds of features. The first is a statement, with the block that contains it. The second is a
+pair of statements: one sets a name, and the other uses this name. The third is the set of all statements of a
+function or class. The order of statements is ignored, because a student who copies an answer can reorder its
+functions and independent statements.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from course_pkg.grading.flags.syntax import UNREADABLE, is_python, tree
 from course_pkg.grading.flags.tokens import cpp_statements
 from course_pkg.grading.flags.work import Answer
 
-# Statements of a function, class or other block count as one feature if there are at least this many.
+# If a function, a class or another block contains at least BLOCK statements, the block is one feature.
 BLOCK = 3
-PAIRS = 400  # One name produces at most this many pairs, because a name in many lines is not characteristic.
+PAIRS = 400  # A name with more pairs is ignored, because a name in many lines is not characteristic.
 LONG = 12  # A characteristic string has at least this many characters.
-LINE = 500  # At most this many characters of a line of C++ are read.
+LINE = 500  # Comments and strings in longer lines of C++ are ignored.
 TEXT = re.compile(r'"([^"]+)"')
 COMMENT = re.compile(r"//\s*(.+)|/\*(.+?)\*/")
 
@@ -39,7 +39,7 @@ class Fingerprint:
     code: frozenset[str] = field(default=frozenset())
     # `words` contains the comments and strings of the program, and the names that the program defines.
     words: frozenset[str] = field(default=frozenset())
-    # `lines` contains, for each statement, its normal form and its line number.
+    # `lines` contains the normal form and the line number of each statement.
     lines: tuple[tuple[str, int], ...] = ()
 
 
@@ -65,7 +65,7 @@ def _fingerprint(answer: Answer) -> Fingerprint:
 
 
 def _features(made: list[Statement]) -> Iterator[str]:
-    """Yield the features; the second occurrence of a feature counts as a different feature."""
+    """Yield the features of an answer; the second occurrence of a feature is a different feature."""
     counts: Counter[str] = Counter()
     for feature in [*_single(made), *_pairs(made), *_blocks(made)]:
         counts[feature] += 1
@@ -112,7 +112,7 @@ def _python_words(source: str, module: ast.Module) -> Iterator[str]:
             if token.type == tokenize.COMMENT:
                 yield from _long(token.string)
     except (tokenize.TokenError, SyntaxError, ValueError):
-        # The tokenizer stops at an IPython magic or an unterminated string. The comments before this place
+        # The tokenizer stops at an IPython magic or an unterminated string. The comments before the error
         # have already been found.
         pass
     for node in ast.walk(module):

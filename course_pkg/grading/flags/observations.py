@@ -19,7 +19,7 @@ SHOWN = 5  # SHOWN is the maximum number of flags of one kind for one answer.
 
 @dataclass(frozen=True)
 class Observation:
-    """An action of a program."""
+    """An action of a student's program."""
 
     key: str
     line: int
@@ -28,7 +28,7 @@ class Observation:
 
 @dataclass(frozen=True)
 class Program:
-    """A syntax tree, and the imported objects to which its names refer."""
+    """The syntax tree of a program, and the imported objects to which its names refer."""
 
     module: ast.Module
     names: Mapping[str, str]
@@ -38,7 +38,7 @@ Observe = Callable[[Program], Iterable[Observation]]
 
 
 def unusual(group: Group, kind: str, observe: Observe, *, whole_notebook: bool) -> Iterator[Found]:
-    """Yield a flag for each observation in an answer that does not occur in the course's own code.
+    """Yield a flag for each observation that occurs in an answer, but not in the course's own code.
 
     The course's own code is the solution of the exercise, and all cells that are not exercises. If
     `whole_notebook` is True, the solutions of the chapter's other exercises are also part of the course's own
@@ -63,7 +63,7 @@ def unusual(group: Group, kind: str, observe: Observe, *, whole_notebook: bool) 
 def _seen(answer: Answer, given: Mapping[str, str], observe: Observe) -> list[Observation]:
     """Return the observations in an answer.
 
-    An answer that runs in the notebook can use the imports of other cells.
+    A cell of the notebook can use the imports of other cells.
     """
     try:
         module = tree(answer)

@@ -5,15 +5,13 @@ with fewer than ten statements. The rest of the code is divided into features (s
 feature has a weight. If s of n students have the feature, its weight is log2(n / s) bits. The similarity of
 two answers is twice the weight of their common features, divided by the sum of the weights of both answers.
 
-Two short answers to the same exercise can be similar by chance. Therefore, a pair is flagged for one of two
-reasons:
-
-- The students have one nearly identical answer, and at most one other student has the same code, or the same
-  comments, strings or names.
-- The students have several nearly identical answers. For each of these answers, p is the fraction of all
-  pairs of students whose answers are at least as similar. This fraction is an estimate of the probability
-  that the similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than MARGIN above
-  log2 of the number of pairs. On average, fewer than one pair of a class is then flagged by coincidence.
+Two short answers to the same exercise can be similar by chance. Therefore, a pair of students is flagged only
+in one of two cases. In the first case, they have one nearly identical answer, and enough of the code, or of
+the comments, strings and names, occurs in the answer of at most one other student. In the second case, a pair
+of students has several nearly identical answers. For each of these answers, p is the fraction of all pairs of
+students whose two answers are at least as similar. This fraction is an estimate of the probability that the
+similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than MARGIN above log2 of the
+number of pairs. On average, fewer than one pair of a class is then flagged by coincidence.
 """
 
 from __future__ import annotations
@@ -34,11 +32,11 @@ FEW = 3  # Even in a small class, code is compared if at most this many students
 SMALL = 30  # For a smaller class, the weights are computed as for a class of this size.
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
-# The pair is flagged because of one answer if at least this many features of the code are in both answers and
-# in the answer of at most one other student.
+# One answer is enough to flag a pair if the two answers have at least OWN_CODE features of the code in common
+# that at most one other student has.
 OWN_CODE = 15
-# The pair is also flagged if at least this many comments, strings or names are in both answers and in the
-# answer of at most one other student.
+# One answer is also enough to flag a pair if the two answers have at least OWN_WORDS comments, strings or
+# names in common that at most one other student has.
 OWN_WORDS = 3
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)
@@ -47,7 +45,7 @@ Couple = tuple[int, int]
 
 @dataclass(frozen=True)
 class Pair:
-    """Two students with nearly identical answers. The keys of `likeness` are the names of these answers."""
+    """Two students with nearly identical answers; `likeness` is a mapping from answer to similarity."""
 
     first: int
     second: int
@@ -108,7 +106,7 @@ class Exercise:
         return self._having[feature]
 
     def counts(self, feature: str) -> bool:
-        """Return whether a feature is compared: it was not handed out, and only a few students have it."""
+        """Return whether a feature is compared: only few students have it, and it was not handed out."""
         return feature not in self._given and self._having[feature] <= self._most
 
     @cached_property
@@ -131,7 +129,7 @@ class Exercise:
         return math.log2(everybody / max(1, as_much))
 
     def is_enough(self, couple: Couple) -> bool:
-        """Return whether one nearly identical answer of these two students is enough for a flag."""
+        """Return whether one nearly identical answer is enough to flag the two students in `couple`."""
         first, second = (self._answers[number] for number in couple)
         words = self._rare(first.words & second.words)
         return words >= OWN_WORDS or (

@@ -18,7 +18,8 @@ from course_pkg.grading.flags.syntax import Function, is_text
 COMMUTATIVE = (ast.Add, ast.Mult, ast.BitAnd, ast.BitOr, ast.BitXor)
 MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE}
 BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
-# The tuple contains the scope that binds the name (0: the module; -1: attributes), and the name.
+# A `Name` contains the number of the scope that binds the name (0 is the module, -1 means attributes), and
+# the name.
 Name = tuple[int, str]
 
 
@@ -29,7 +30,7 @@ class Statement:
     form: str  # `form` is the normal form of the statement.
     line: int
     parent: int  # `parent` is the index of the enclosing statement, or -1 at the top level.
-    # The statement assigns values to these names of the program.
+    # `binds` contains the names of the program to which the statement assigns values.
     binds: set[Name] = field(default_factory=set)
     uses: set[Name] = field(default_factory=set)  # The statement reads these names of the program.
 
@@ -92,7 +93,7 @@ class _Reader:
 
 
 class _Form:
-    """Writes the normal form of one statement."""
+    """Creates the normal form of one statement, and stores the names that the statement sets and uses."""
 
     def __init__(self, reader: _Reader, statement: Statement, scopes: tuple[int, ...]) -> None:
         self._reader = reader
@@ -100,7 +101,7 @@ class _Form:
         self._scopes = scopes
 
     def of(self, node: ast.AST) -> str:
-        """Return the normal form of a node."""
+        """Return the normal form of a node of the syntax tree."""
         if isinstance(node, ast.Name):
             return self._name(node.id, stored=not isinstance(node.ctx, ast.Load))
         if isinstance(node, ast.arg):
@@ -140,7 +141,7 @@ class _Form:
         return f"{type(node).__name__}({','.join(self._fields(node))})"
 
     def _fields(self, node: ast.AST) -> Iterator[str]:
-        """Yield the normal forms of a node's fields, except statements, annotations, names and `ctx`."""
+        """Yield the normal forms of a syntax node's fields; skip statements, annotations, names and `ctx`."""
         for name, value in ast.iter_fields(node):
             if name in (*BLOCKS, "returns", "annotation", "ctx", "type_comment", "name"):
                 continue
@@ -206,6 +207,6 @@ def _bound(node: ast.AST) -> set[str]:
         elif isinstance(each, ast.ExceptHandler) and each.name:
             names.add(each.name)
         elif isinstance(each, ast.arg):
-            names.add(each.arg)  # This argument belongs to a lambda.
+            names.add(each.arg)  # Here, each argument is an argument of a lambda.
         todo += ast.iter_child_nodes(each)
     return names

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from course_pkg.grading.flags.work import Answer
 from course_pkg.grading.rebuild.context import LONGEST, tree_of
 
-# Python raises these errors for code that is nested too deeply, or that contains a huge number.
+# The parser raises the errors in UNREADABLE for code that is nested too deeply, or contains a huge number.
 UNREADABLE = (RecursionError, ValueError, MemoryError)
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -34,13 +34,13 @@ def tree(answer: Answer) -> ast.Module:
 
 
 def line_of(answer: Answer, number: int) -> str:
-    """Return the line with this number, without its indentation."""
+    """Return the line `number` of the answer, without indentation."""
     lines = answer.source.splitlines()
     return lines[number - 1].strip() if 0 < number <= len(lines) else ""
 
 
 def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
-    """Return the objects to which imported names refer, such as {"Trigger": "std_srvs.srv.Trigger"}."""
+    """Return the full name for each imported name, such as "std_srvs.srv.Trigger" for "Trigger"."""
     found: dict[str, str] = {}
     for each in trees:
         for node in ast.walk(each):
@@ -55,9 +55,9 @@ def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
 
 
 def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
-    """Return `known`, and the names in `module` that refer to an imported object.
+    """Return `known`, with an entry for each name in `module` that refers to an imported object.
 
-    After `file = Path("x")`, the result contains {"file": "pathlib.Path"}, so that calls of the path's
+    After `file = Path("x")`, the result contains "pathlib.Path" for "file", so that calls of the path's
     methods can be found.
     """
     names = {**known, **imports([module])}

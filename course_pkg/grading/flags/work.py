@@ -36,8 +36,7 @@ class Answer:
     def name(self) -> str:
         """The path of the answer's file, or the id of the part if there is no file.
 
-        The name does not depend on how the file was submitted: a cell can write the file, or a package can
-        contain it.
+        The name of an answer is the same if a cell writes the file, and if a package contains the file.
         """
         return self.path.removeprefix("src/") or self.where
 
@@ -58,7 +57,8 @@ class Group:
     chapter: str
     works: tuple[Work, ...]
     solution: Mapping[str, Answer]  # The course's own answers; the keys are the names of the answers.
-    # The unchanged exercise cells that students get, with the same keys as `solution`.
+    # `blanks` contains the unchanged exercise cells that students get; the keys are the same as in
+    # `solution`.
     blanks: Mapping[str, str]
     shown: tuple[str, ...]  # The code of all cells of the chapter's notebook that are not exercises.
 
@@ -73,7 +73,7 @@ Found = tuple[Work, Flag]  # The function `find` of each kind of flag yields suc
 
 
 def group_of(chapter: str, submissions: Sequence[Submission], plan: Plan) -> Group:
-    """Return the answers in `submissions`; all of them are for `chapter`."""
+    """Return the answers in `submissions`; each submission is for the chapter `chapter`."""
     notebook = read(NotebookStore().solutions([chapter])[0])
     cells = code_cells(notebook)
     parts = {part: cell["source"] for cell in cells if (part := exercise_of(cell))}

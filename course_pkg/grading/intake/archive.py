@@ -22,12 +22,11 @@ from course_pkg.grading import clean
 
 LARGEST = 20 << 20  # LARGEST is the maximum number of bytes of one notebook.
 ALTOGETHER = 4 << 30  # ALTOGETHER is the maximum number of bytes of all unpacked notebooks in a zip.
-# Maximum compression ratio. A usual notebook has a compression ratio of 10, and a notebook with much
-# repetition has a ratio of 100.
+# Maximum compression ratio. A usual notebook has a compression ratio of 10, or of 100 with much repetition.
 RATIO = 400
 SMALL = 1 << 20  # The compression ratio of files with fewer bytes is not checked.
 MEMBERS = 200_000
-DEPTH = 16  # Folders can be nested to this depth.
+DEPTH = 16  # A file inside more nested folders is not graded.
 LITTER = {"__macosx", "thumbs.db", "desktop.ini", "timestamp.txt", "__pycache__"}
 
 
@@ -38,13 +37,13 @@ class Entry:
     path: str  # `path` is the path in the submitted folder or archive, with / between folders.
     modified: float  # `modified` is a time in s since 1970.
     read: Callable[[], bytes]
-    # The value is True if the file's owner may execute the file, and False if an archive contains no
-    # permissions.
+    # `executable` is True if the file's owner has the permission to execute the file. Without stored
+    # permissions, `executable` is False.
     executable: bool = False
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """The names of the folders, and the name of the file."""
+        """The parts of the path: the names of the folders, and the name of the file."""
         return PurePosixPath(self.path).parts
 
 
@@ -70,7 +69,7 @@ def opened(source: Path) -> Iterator[list[Entry]]:
 
 
 def one_file(path: Path) -> Entry:
-    """Return the file at `path`; raise GradingError if it does not exist."""
+    """Return an entry for the file at `path`; raise GradingError if this file does not exist."""
     try:
         return Entry(path.name, path.lstat().st_mtime, partial(_read_file, path))
     except OSError as error:
@@ -142,7 +141,7 @@ def _refuse_large(size: int) -> None:
 
 
 class _Archive:
-    """A zip file, with a limit for the sum of all bytes that are read from it."""
+    """A zip file; the total number of bytes that are read from this file has a limit."""
 
     def __init__(self, archive: zipfile.ZipFile) -> None:
         self._archive = archive
@@ -199,7 +198,7 @@ def _refuse_suspicious(member: zipfile.ZipInfo) -> None:
 
 
 def leads_out(path: str) -> bool:
-    """Return whether a path in an archive leads out of the archive."""
+    """Return whether a path in an archive refers to a place outside the archive."""
     parts = path.replace("\\", "/").split("/")
     return not parts[0] or ".." in parts or re.match(r"[A-Za-z]:", path) is not None
 

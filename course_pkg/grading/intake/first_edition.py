@@ -15,7 +15,7 @@ TITLE = re.compile(r"# (.+)")
 
 @dataclass(frozen=True)
 class RenumberedChapter:
-    """A chapter of the first edition, with the number that it has in this edition."""
+    """A chapter of the course's first edition; `now` is its number in the current edition."""
 
     name: str  # `name` is the name of the file in the first edition, without the ending .ipynb.
     title: str  # `title` is the heading of the chapter in the first edition.
@@ -24,12 +24,12 @@ class RenumberedChapter:
 
     @property
     def number(self) -> str:
-        """The number in the first edition."""
+        """The number of the chapter in the first edition."""
         return self.name[:2]
 
     @property
     def difference(self) -> str:
-        """Sentences about the changes since the first edition."""
+        """Sentences that tell a student what has changed in this chapter since the first edition."""
         if self.number == self.now:
             return f"the exercises of this chapter had other numbers. {self.moved}".strip()
         return (
@@ -55,7 +55,7 @@ RENUMBERED = (
     RenumberedChapter("13_go_further", "Go further", "16"),
 )
 
-# This chapter has the same number in both editions, but its exercises have other numbers.
+# Chapter 03 has the same number in both editions of the course, but its exercises have other numbers.
 CHOOSE = RenumberedChapter(
     "03_choose",
     "Choose between a stream and a question",
@@ -65,17 +65,16 @@ CHOOSE = RenumberedChapter(
         "exercise 03.4 was removed."
     ),
 )
-LAST_PART = re.compile(r"(?:exercise|check)-03-5|[\"']03\.5[\"']")  # Only the first edition has this part.
+# Only the first edition of the course has the part 03.5.
+LAST_PART = re.compile(r"(?:exercise|check)-03-5|[\"']03\.5[\"']")
 
 
 def first_edition(name: str, cells: Sequence[StudentCell], by_ids: str) -> RenumberedChapter | None:
-    """Return the chapter of the first edition to which a notebook belongs.
+    """Return the chapter of the first edition to which a notebook belongs, or None for a newer notebook.
 
-    Return None for a notebook of this edition.
-
-    `name` is the name of the notebook's file, in lower case with underscores. `by_ids` is the chapter that
-    has the most cell ids in common with the notebook. The chapter number alone is not sufficient, because
-    another chapter has this number in this edition.
+    `name` is the notebook's file name, in lower case with underscores. `by_ids` is the chapter that has the
+    most cell ids in common with the notebook. The chapter number alone is not sufficient, because another
+    chapter has this number in the current edition.
     """
     number = _number(cells)
     if number == CHOOSE.number and (CHOOSE.title in _titles(cells) or _has_last_part(cells)):

@@ -15,7 +15,8 @@ from course_pkg.grading.intake.archive import is_litter, leads_out
 from course_pkg.grading.intake.naming import WRAPPING, Submitters, claims, unwrapped
 from course_pkg.grading.store import FOLDER
 
-# Folders are searched to this depth, because a platform adds up to two folders around a student's folder.
+# DEPTH is the maximum depth of a student's folder, because a platform can put it into one or two other
+# folders.
 DEPTH = 3
 PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 
@@ -23,11 +24,11 @@ PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 def handed_in_nothing(
     source: Path, files: Sequence[str], outer: int, submitters: Submitters, reports: Sequence[str] = ()
 ) -> list[Submission]:
-    """Return a submission with a problem for each student with an empty folder.
+    """For each student with an empty folder, return a submission with a `problem`.
 
     `source` is a folder or a zip, and `files` contains the paths in it. `outer` is 1 if one folder contains
-    all students' folders, and 0 otherwise. `reports` contains the paths of folders in `source` that belong to
-    no student.
+    all students' folders, and 0 otherwise. `reports` contains the paths of folders with reports; these
+    folders are skipped.
     """
     filled = {PurePosixPath(path).parts[:depth] for path in files for depth in range(1, DEPTH + 1)}
     found: dict[str, Submission] = {}
@@ -48,10 +49,10 @@ def handed_in_nothing(
 
 
 def require_other_folder(source: Path, out: Path) -> None:
-    """Raise GradingError if `out` is the folder of the submissions, or a folder inside it that is not empty.
+    """Raise GradingError if `out` is `source`, or a non-empty folder inside `source`.
 
-    In such a folder, the reports would be mixed with the submissions. A folder with the results of an earlier
-    run is allowed.
+    In the folder of the submissions, the reports would be mixed with the submissions. If `out` contains the
+    results of an earlier run, no error is raised.
     """
     if not source.is_dir() or not out.is_dir() or (out / FOLDER).is_dir():
         return
@@ -63,9 +64,9 @@ def require_other_folder(source: Path, out: Path) -> None:
 
 
 def report_folders(source: Path, out: Path | None) -> list[str]:
-    """Return the folders in `source` that contain reports: `out`, and the folders of other runs.
+    """Return the folders in `source` that contain reports: the folder `out`, and the folders of earlier runs.
 
-    The paths have / between the names. A message on stderr contains the folders of other runs.
+    In the returned paths, a / separates the names. A message on stderr lists the folders of earlier runs.
     """
     own = _path_inside(source, out)
     others = []
@@ -82,12 +83,12 @@ def report_folders(source: Path, out: Path | None) -> list[str]:
 
 
 def is_inside(path: str, folders: Sequence[str]) -> bool:
-    """Return whether a file is in one of `folders`; the path of the file has / between the folders."""
+    """Return whether the file at `path` is in a folder of the list `folders`; a / separates the names."""
     return any(path.startswith(f"{folder}/") for folder in folders)
 
 
 def _path_inside(source: Path, folder: Path | None) -> str:
-    """Return the path of `folder` inside the folder `source`, with / between the names, or ""."""
+    """Return the path of `folder` relative to `source`, or "" if `folder` is not inside `source`."""
     try:
         inside = folder.resolve().relative_to(source.resolve()) if folder else Path()
     except ValueError:
@@ -96,13 +97,13 @@ def _path_inside(source: Path, folder: Path | None) -> str:
 
 
 def _leads_to(parts: tuple[str, ...], folders: Sequence[str]) -> bool:
-    """Return whether a folder is in `folders`, or is a parent of a folder in `folders`."""
+    """Return whether a folder is equal to a folder in `folders`, contains such a folder, or is inside one."""
     inner = (PurePosixPath(folder).parts for folder in folders)
     return any(parts[: len(each)] == each[: len(parts)] for each in inner)
 
 
 def _folders(source: Path) -> Iterator[tuple[str, ...]]:
-    """Yield the folders in `source` that are nested at most DEPTH deep; links are not followed."""
+    """Yield the path of each folder in `source`, with at most DEPTH names; links are not followed."""
     if source.is_dir():
         yield from _below(source, ())
         return

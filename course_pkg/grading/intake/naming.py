@@ -2,11 +2,12 @@
 
 An instructor or a platform has put the student's name into the name of a folder or file.
 
-SUBMISSIONS/<student>/NN_topic.ipynb                          collected by hand; subfolders are allowed
-Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle; can be one file name without folders
-lastfirst_LATE_123_456_NN_topic-2.ipynb                       Canvas; LATE: after the deadline; -2: third try
-assignment_9_export/submission_456/NN_topic.ipynb             Gradescope, with submission_metadata.yml
-submitted/<student>/<assignment>/NN_topic.ipynb               nbgrader
+A file that an instructor has collected has the path SUBMISSIONS/<student>/NN_topic.ipynb; subfolders are
+allowed. A file from Moodle has the path Full Name_12345_assignsubmission_file_/NN_topic.ipynb, or is one file
+without a folder. A file from Canvas has the name lastfirst_LATE_123_456_NN_topic-2.ipynb, in which LATE means
+after the deadline, and -2 means the third attempt. A file from Gradescope has the path
+assignment_9_export/submission_456/NN_topic.ipynb, and submission_metadata.yml contains the students' names. A
+file from nbgrader has the path submitted/<student>/<assignment>/NN_topic.ipynb.
 
 A catkin package is a folder next to the notebooks: <student>/<package>/package.xml (see packages.py).
 """
@@ -29,12 +30,12 @@ CANVAS = re.compile(
 )
 GRADESCOPE = re.compile(r"submission_\d+")
 METADATA = "submission_metadata.yml"
-TIMES = "times.csv"  # `course collect` writes this file next to the students' folders
+TIMES = "times.csv"  # `course collect` writes this file next to the students' folders.
 WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
 AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
-# Some systems add the ending .txt or .json.
+# Some systems add .txt or .json to the name of a notebook.
 NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)
-# The keys are the folders in Gradescope's export, and the values are the submitters.
+# For each folder in Gradescope's export, Submitters contains the students who submitted.
 Submitters = Mapping[str, Sequence[str]]
 
 
@@ -44,15 +45,16 @@ class Claim:
 
     student: str  # `student` is the student's name, or "" if the path does not contain it.
     stem: str  # `stem` is the file name that the student gave the notebook, or "" for any other file.
-    attempt: int = 0  # `attempt` is the number of the attempt, as the platform counts attempts.
+    attempt: int = 0  # `attempt` is the number of the attempt; the first attempt is 0.
     marked_late: bool = False
 
 
 def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
     """Return the students to whom a file belongs: one student, or all members of a group.
 
-    Only the name of the first folder is used, or the name of the file if there is no folder. The platform
-    chose this name. Students choose the names below this folder, and could use another student's name.
+    The student's name is read only from the first folder, or from the file name if there is no folder. The
+    platform chose this name. Students choose all other names in the path, and could use another student's
+    name.
     """
     *folders, name = parts
     first = folders[0] if folders else name
@@ -66,9 +68,9 @@ def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
 
 
 def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -> tuple[str, str]:
-    """Return the name and the number of a student on the platform (MOODLE or CANVAS).
+    """Return the name and the number that a platform (MOODLE or CANVAS) uses for a student.
 
-    Both values are "" if they are not known.
+    The name and the number are "" if they are not known.
 
     The number is read only from names that the platform chose. For example, a student with the name `s_17`
     has no number.
@@ -82,10 +84,7 @@ def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -
 
 
 def unwrapped(parts: Sequence[str], outer: int) -> tuple[str, ...]:
-    """Return a path without its outer folders, and without a folder that the platform added.
-
-    `outer` is the number of outer folders.
-    """
+    """Return a path without the first `outer` folders, and without a folder that the platform added."""
     inner = tuple(parts[outer:]) if len(parts) > outer else tuple(parts)
     return inner[1:] if len(inner) > 1 and WRAPPING.fullmatch(inner[0]) else inner
 
@@ -100,7 +99,7 @@ def _claim(student: str, name: str, *, late: bool = False) -> Claim:
 
 
 def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
-    """Return 1 if one outer folder contains all students' folders, and 0 otherwise.
+    """Return 1 if one folder contains all students' folders, and 0 otherwise.
 
     `archive` is the name of the zip without .zip, or "" for a folder.
     """
@@ -119,7 +118,7 @@ def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
 
 
 def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
-    """Return the submitters of each folder of an export, as student numbers, addresses or names."""
+    """Return each folder's submitters in a Gradescope export: student numbers, email addresses or names."""
     return {
         folder: [_submitter(each) or folder for each in record.get(":submitters") or [{}]]
         for folder, record in gradescope_records(content).items()
@@ -128,12 +127,12 @@ def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
 
 
 def gradescope_records(content: bytes) -> dict[str, dict[str, Any]]:
-    """Return the metadata of an export for each folder.
+    """Return the metadata of each folder in a Gradescope export.
 
     Raises GradingError if the metadata cannot be read.
 
-    The file is YAML; its keys are symbols of Ruby. Every scalar is read as a string, and YAML tags are
-    ignored.
+    The metadata are YAML; the keys are Ruby symbols, such as `:email`. Every scalar is read as a string, and
+    YAML tags are ignored.
     """
     loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
     try:

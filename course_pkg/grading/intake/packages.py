@@ -1,15 +1,12 @@
-"""The submitted catkin packages.
-
-An example is SUBMISSIONS/<student>/<package>/package.xml.
+"""Reads the catkin packages that students submit, such as SUBMISSIONS/<student>/<package>/package.xml.
 
 A package is a folder with a package.xml, at any depth below the student's folder. The folders that catkin
 writes (build, devel, install) are left out. The name of a package is the name in its package.xml, as in ROS.
-However, the name of the folder is used if a part requires a package with this name and no part requires the
-name in package.xml.
+However, if only the name of the folder is the name of a package that a part needs, the name of the folder is
+used.
 
-A link or a device in a package is not read, and a note reports it. All other files of the package are
-examined. A package that is too large is not examined. If two packages have the same name, the newest package
-is used.
+A link or a device in a package is not read, and a note in the grade reports this. A package that is too large
+is not examined. If two packages have the same name, the newest package is used.
 """
 
 from __future__ import annotations
@@ -55,27 +52,28 @@ class Found:
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the package's name or its folder's name: the first of the two that is in `names`.
+        """Return the name of the package if `names` contains this name, or else the name of the folder.
 
-        `names` contains the names of the packages that parts need. If neither name is in `names`, return "".
+        `names` contains the names of the packages that parts need. If it contains neither the name of the
+        package nor the name of the folder, return "".
         """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
 
 def package_roots(paths: Sequence[tuple[str, ...]]) -> set[tuple[str, ...]]:
-    """Return the package folders in a student's `paths`; a package cannot be inside another package."""
+    """Return the folders of packages that contain a student's files `paths`; packages are not nested."""
     with_manifest = {path[:-1] for path in paths if len(path) > 1 and path[-1] == MANIFEST}
     own = {root for root in with_manifest if not is_generated(root)}
     return {root for root in own if not any(root[:depth] in own for depth in range(1, len(root)))}
 
 
 def is_generated(folders: Sequence[str]) -> bool:
-    """Return whether one of these nested folders is a folder that catkin generates, such as `build`."""
+    """Return whether the folders of a path include a folder that catkin generates, such as `build`."""
     return not GENERATED.isdisjoint(folders)
 
 
 def root_of(path: tuple[str, ...], packages: set[tuple[str, ...]]) -> tuple[str, ...] | None:
-    """Return the package that contains a file, or None; a notebook belongs to no package."""
+    """Return the folder of the package that contains a file, or None; a notebook belongs to no package."""
     if NOTEBOOK.fullmatch(path[-1]):
         return None
     return next((path[:depth] for depth in range(1, len(path)) if path[:depth] in packages), None)
@@ -122,7 +120,7 @@ def _too_large(name: str, why: str) -> str:
 
 
 def _name(manifest: bytes) -> str:
-    """Return the name in a package.xml, or ""."""
+    """Return the name of the package in the text of a package.xml, or ""."""
     tags = manifest_tags(manifest.decode("utf-8", "replace"))
     return next((tag.text for tag in tags if tag.name == "name"), "")
 
@@ -135,9 +133,8 @@ def attached(
     Return all submissions.
 
     `given` contains the submissions with notebooks, and `packages` contains the packages of each student.
-    `wanted` contains the graded chapters; an empty list means all chapters. If a student has not submitted a
-    notebook for a chapter, a package becomes a submission only if a part of the chapter needs a file of the
-    package.
+    `wanted` contains the graded chapters; an empty list means all chapters. Without a notebook for a chapter,
+    a package becomes a submission only if a part of the chapter needs a file of the package.
     """
     if not packages:
         return list(given)
@@ -153,7 +150,7 @@ def attached(
 
 
 def _asked(parts: Sequence[Part]) -> dict[str, set[str]]:
-    """Return the files that `parts` need; the keys are the names of packages."""
+    """Return the files that the parts `parts` need; the keys are the names of packages."""
     asked: dict[str, set[str]] = {}
     for part in parts:
         for name, paths in part.package_files.items():
@@ -168,10 +165,10 @@ def _made(
     asked: Mapping[str, set[str]],
     given: Submission | None,
 ) -> Submission | None:
-    """Return the submission `given` with the packages that the chapter needs.
+    """Return the submission `given`, and add the packages that the chapter needs.
 
-    If there is no notebook, return a submission with only the packages, or None if there are no packages
-    either.
+    If `given` is None, return a submission that contains only the packages, or None if the chapter needs none
+    of them.
     """
     taken, notes = [], []
     for name in asked:

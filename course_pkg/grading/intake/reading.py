@@ -1,7 +1,4 @@
-"""Reads a student's notebook, which may have any format version and may be damaged.
-
-The size of the input is limited.
-"""
+"""Reads a student's notebook in any version of the notebook format; the file can be damaged."""
 
 from __future__ import annotations
 
@@ -12,8 +9,8 @@ from dataclasses import dataclass
 from course_pkg.errors import GradingError
 from course_pkg.types.fields import Plain
 
-# A file may contain at most this many lists and objects. Without this limit, a file of 20 MiB with short
-# lists would need half a GB of memory.
+# BRACKETS is the maximum number of lists and objects in a file. Without this limit, a file of 20 MiB with
+# short lists would need half a GB of memory.
 BRACKETS = 500_000
 CELLS = 50_000
 PREFIXES = {
@@ -26,6 +23,7 @@ PREFIXES = {
     b"%pdf": "the file is a PDF of the notebook; hand in the .ipynb itself",
     b"pk\x03\x04": "the file is a zip with the name of a notebook; hand in the .ipynb itself",
 }
+# A damaged notebook in an old format causes the errors in WRONG.
 WRONG = (
     KeyError,
     AttributeError,
@@ -33,12 +31,12 @@ WRONG = (
     ValueError,
     IndexError,
     RecursionError,
-)  # A damaged notebook in an old format causes these errors.
+)
 
 
 @dataclass(frozen=True)
 class StudentCell:
-    """One cell with the data that grading needs."""
+    """The data of one notebook cell that grading needs."""
 
     id: str
     kind: str  # The value is "code", "markdown" or "raw".
@@ -64,7 +62,7 @@ def read_cells(content: bytes) -> list[StudentCell]:
 
 
 def slimmed(cells: Sequence[StudentCell]) -> bytes:
-    """Return a notebook with only the data for grading.
+    """Return a notebook with only the data that grading needs.
 
     The result contains no outputs, because the outputs of all students' notebooks would fill the memory.
     """
@@ -102,10 +100,10 @@ def _parsed(content: bytes) -> dict[str, Plain]:
 
 
 def _all_cells(data: dict[str, Plain]) -> object:
-    """Return the cells of a notebook of any format; up to version 3, the cells are in worksheets.
+    """Return a notebook's cells; in notebooks up to format version 3, the cells are in the list "worksheets".
 
-    nbformat can convert an old notebook, but validates it first. For a long notebook, the validation takes
-    seconds and writes the whole content to a log.
+    nbformat is not used, because its validation of a long notebook takes seconds and writes the whole content
+    to a log.
     """
     sheets = data.get("worksheets")
     if "cells" in data or not isinstance(sheets, list):

@@ -1,4 +1,4 @@
-"""The solutions of the course; the methods find the chapter to which a submission belongs."""
+"""Finds the chapter to which a submission belongs, by a comparison with the course's solutions."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from course_pkg.authoring.cells import exercise_of
 from course_pkg.authoring.notebook_store import NotebookStore, read
 from course_pkg.grading.intake.reading import StudentCell
 
-# A notebook without an exercise id belongs to a solution if both contain at least this many of the same cell
-# ids.
+# If a notebook has no exercise ids, its chapter is found by the ids of all cells. At least ENOUGH cell ids
+# must also be in the chapter's solution.
 ENOUGH = 5
 
 
@@ -37,7 +37,7 @@ class References:
         return sorted(self._stems)
 
     def name_of(self, chapter: str) -> str:
-        """Return the name of the chapter's file without the extension."""
+        """Return the name of the chapter's notebook without the extension."""
         return self._stems.get(chapter, f"{chapter}_topic")
 
     def by_name(self, stem: str) -> str:
@@ -58,7 +58,7 @@ class References:
     def by_cells(self, cells: Sequence[StudentCell], favoured: str) -> str:
         """Return the chapter to which most of the notebook's exercises belong.
 
-        If several chapters have the same number of exercises, prefer the chapter `favoured`.
+        If two chapters have the same number of exercises in the notebook, prefer the chapter `favoured`.
 
         If the notebook has no exercises, the ids of all cells are compared.
         """
@@ -70,7 +70,7 @@ class References:
         return self.by_ids(cells)
 
     def by_ids(self, cells: Sequence[StudentCell]) -> str:
-        """Return the chapter that has the most ids in common with the cells, or "" if too few ids match."""
+        """Return the chapter whose solution has the most ids in common with `cells`; "" if too few match."""
         shared = Counter(chapter for cell in cells for chapter in self._ids.get(cell.id, []))
         chapter, count = max(shared.items(), key=lambda item: (item[1], item[0]), default=("", 0))
         return chapter if count >= ENOUGH else ""

@@ -47,7 +47,7 @@ SHOWN = 3  # SHOWN is the maximum number of file names in a sentence.
 
 @dataclass(frozen=True)
 class _Found:
-    """A submission, and the data that decide which of several submissions for a chapter is graded."""
+    """A submission; `rank` decides which one is graded if a student has several submissions for a chapter."""
 
     submission: Submission
     attempt: int
@@ -66,12 +66,13 @@ def submissions(
     `source` is a folder with files such as `<student>/NN_topic.ipynb`, a zip of such a folder, a download
     from a platform (see naming.py), or one notebook. `root` is the checkout that contains the solutions.
     Files in the folder `without`, and in folders with the reports of earlier runs, are ignored. An unusable
-    file becomes a submission with a `problem`, and so does an empty folder of a student. GradingError is
-    raised only if `source` can neither be listed nor opened.
+    file, or a student's empty folder, becomes a submission with a `problem`. GradingError is raised only if
+    `source` cannot be opened.
     """
     if source.is_file() and NOTEBOOK.fullmatch(source.name):
         return [submission_of(source, root=root)]
-    NotebookStore(root).solutions(chapters)  # The call raises an error for an unknown chapter.
+    # This call raises an error if `chapters` contains an unknown chapter.
+    NotebookStore(root).solutions(chapters)
     references = References(root)
     reports = report_folders(source, without)
     with opened(source) as everything:
@@ -88,7 +89,7 @@ def submissions(
 
 
 def submission_of(path: Path, student: str = "", root: Path | None = None) -> Submission:
-    """Return the submission with one notebook and the packages in the same folder.
+    """Return a submission with one notebook, and with the packages in the notebook's folder.
 
     If `student` is empty, the student's name is the name of the notebook's folder.
     """
@@ -120,10 +121,7 @@ class _File:
 
 
 def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_File]]:
-    """Return the packages of each student, and all files that belong to no package.
-
-    Files that catkin generated are left out.
-    """
+    """Return the packages of each student, and the other submitted files."""
     packages: dict[str, list[Found]] = {}
     others: list[_File] = []
     for _, group in groupby(sorted(files, key=lambda each: each.path), lambda each: each.path[:1]):
@@ -144,7 +142,7 @@ def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_Fil
 
 
 def _layout(entries: Sequence[Entry], archive: str) -> tuple[int, dict[str, list[str]]]:
-    """Return the number of folders around the students' folders, and Gradescope's list of submitters."""
+    """Return how many folders enclose all students' folders, and the submitters in Gradescope's metadata."""
     outer = wrapping([entry.parts for entry in entries if not leads_out(entry.path)], archive)
     submitters: dict[str, list[str]] = {}
     for entry in entries:
@@ -157,7 +155,7 @@ def _layout(entries: Sequence[Entry], archive: str) -> tuple[int, dict[str, list
 def _is_metadata(entry: Entry, outer: int) -> bool:
     """Return whether Gradescope, and not a student, wrote the file.
 
-    A file that Gradescope wrote is not in a student's folder.
+    The metadata file from Gradescope is not in a student's folder.
     """
     return unwrapped(_inside(entry), outer) == (METADATA,)
 
@@ -183,9 +181,9 @@ def _found(file: _File, references: References) -> Iterator[_Found]:
 
 
 def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
-    """Read one file, and return the submission in it.
+    """Read one file, and return the submission in this file.
 
-    If the file cannot be graded, the `problem` of the submission says why, and what to do.
+    If the file cannot be graded, `problem` says why, and what the student or the instructor can do.
     """
     name = clean.line(entry.path.rpartition("/")[2] or "the archive", 120)
     blank = Submission(owner.student, "", b"", clean.line(entry.path, 500))
@@ -226,10 +224,7 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
 
 
 def _of_first_edition(found: RenumberedChapter, references: References, blank: Submission) -> Submission:
-    """Return a submission with a `problem`.
-
-    The message of the problem says what has changed, and which notebook the student has to submit.
-    """
+    """Return a submission; `problem` says what has changed, and which notebook the student must submit."""
     name = clean.line(blank.origin.rpartition("/")[2], 120)
     problem = (
         f"{name} was not graded: this notebook belongs to the first edition of the course, where "
@@ -260,7 +255,7 @@ def _refuse_other(entry: Entry) -> None:
 
 
 def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
-    """Yield the last submission for each chapter and student; its notes list the earlier submissions."""
+    """Yield each student's last submission for each chapter; a note lists the earlier submissions."""
 
     def key(each: _Found) -> tuple[str, str, bool]:
         return each.submission.student, each.submission.chapter, bool(each.submission.chapter)

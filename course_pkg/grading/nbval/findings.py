@@ -8,7 +8,7 @@ COLOUR = re.compile(r"\x1b\[[\d;]*m")
 RAISED = re.compile(r"^(?P<error>[A-Za-z_][\w.]*): (?P<message>.*)$", re.MULTILINE)
 OWN_LIMIT = re.compile(r"gave no result within (?P<seconds>\d+) s")
 LIMIT = re.compile(r"Timeout of (?P<seconds>\d+) seconds exceeded (?:while )?executing")
-SENTENCES = (  # Each entry is a text of nbval 0.11 or pytest, and its meaning for a student.
+SENTENCES = (  # Each entry contains a text that nbval 0.11 or pytest prints, and an explanation for students.
     (
         "Missing output fields",
         "With the right answers, this cell shows more output.",
@@ -27,9 +27,9 @@ OTHER = "The result of the cell is different from the result with the right answ
 
 
 def finding(words: str) -> str:
-    """Return a sentence about a cell for the student, or "" if `words` is empty.
+    """Return a sentence that tells the student the result of a cell, or "" if `words` is empty.
 
-    `words` is nbval's text about the cell.
+    `words` is the text that nbval has printed about a cell.
     """
     text = COLOUR.sub("", words)
     if not text.strip():

@@ -1,7 +1,7 @@
-"""A pytest plug-in that reports the result of each part after nbval has run a notebook of the course.
+"""A pytest plug-in that reports the result of each part, after nbval has run a notebook of the course.
 
-The run fails if a part does not have all its points: its check failed, did not run, or is missing. The result
-is only feedback, because it comes from the notebook's outputs, and student code can forge outputs. If the
+The run of pytest fails if the check of a part failed, did not run, or is missing. The result of the run is
+only feedback, because it depends on the notebook's outputs, which student code can forge. If the environment
 variable COURSE_NBVAL_RECORD contains the name of a file, one JSON object per cell is appended to this file.
 """
 
@@ -19,14 +19,15 @@ from course_pkg.checking.parts import chapters, parts_of
 
 RECORD = "COURSE_NBVAL_RECORD"
 WORDS = 40000  # WORDS is the maximum number of characters of a failure's text.
-PART, MISSING = "part", "missing"  # The names of the user properties in a pytest report.
+# PART and MISSING are the names of user properties in a pytest report.
+PART, MISSING = "part", "missing"
 CALL = re.compile(r"""^\s*check\(["'](\d\d\.\d+)["']\)""", re.MULTILINE)
 SEEN = pytest.StashKey[bool]()
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Record the result of a cell; other reports are ignored."""
+    """Record the result of a notebook cell; all other reports are ignored."""
     report = yield
     cell: Cell | None = getattr(item, "cell", None)
     if cell is not None and (report.when == "call" or report.outcome != "passed"):
@@ -43,14 +44,14 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestR
 
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Make the run fail if points are missing."""
+    """Set the exit status of pytest to "failed" if a part did not pass."""
     reporter = session.config.pluginmanager.get_plugin("terminalreporter")
     if session.exitstatus == pytest.ExitCode.OK and reporter and _lacking(_lines(reporter)):
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Show a line for each part."""
+    """Print a line with the result of each part."""
     lines = _lines(terminalreporter)
     if lines:
         terminalreporter.section("parts of the course")
@@ -65,7 +66,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 
 
 def _lines(reporter: pytest.TerminalReporter) -> list[str]:
-    """Return the first line of each check, in the order of the parts."""
+    """Return the first line of each check's report, in the order of the parts."""
     reports = [each for group in reporter.stats.values() for each in group]
     properties = [pair for each in reports for pair in getattr(each, "user_properties", [])]
     missing = {
@@ -83,9 +84,9 @@ def _is_passed(headline: str) -> bool:
 
 
 def _missing(item: pytest.Item) -> Sequence[str]:
-    """Return the parts of the chapter for which the notebook has no check.
+    """Return the parts that the notebook does not check.
 
-    Only the first call for a notebook returns these parts; later calls return an empty result.
+    Only the first call for a notebook returns parts; later calls return an empty sequence.
     """
     notebook = item.parent
     if notebook is None or notebook.stash.get(SEEN, False):

@@ -26,17 +26,18 @@ from course_pkg.sandbox.linux import confinement, namespaces
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, run_master, too_much_memory_below
 from course_pkg.waiting import Deadline, at_this_load
 
-# If a cell exceeds its time limit, nbval needs at most this time in s to end the kernel.
+# If a cell runs too long, nbval ends the kernel within SILENCE s.
 SILENCE = 15.0
-# The memory limit (bytes) applies to pytest and all nodes of a chapter together.
+# TOGETHER is the limit in bytes for the total memory of pytest and all nodes of a chapter.
 TOGETHER = 2 * confinement.TOGETHER
 KERNEL = "sandboxed"
-OVERVIEW = re.compile(r"\b(progress|results)\(")  # In the first edition, the function was called `results`.
+# In the first edition, the function `progress` had the name `results`.
+OVERVIEW = re.compile(r"\b(progress|results)\(")
 OWN = "/student/.course"
 # The folders `notebooks` and `workspace` have the same parent folder, as in a checkout.
 NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"
-# A kernel with this variable ends if its parent is process 1, because this usually means that the parent has
-# ended. In the sandbox, the kernel's parent is always process 1.
+# A kernel with the environment variable JPY_PARENT_PID ends if the id of its parent process is 1. In the
+# sandbox, this id is always 1.
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")
 
 
@@ -66,10 +67,11 @@ def main() -> None:
 def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
     """Run `command`.
 
-    Kill the processes of the command if they use too much memory, or if nothing is written to the file
-    `record` for `silence` s.
+    Kill the processes of the command if they use too much memory, or if the file `record` does not grow for
+    `silence` s.
 
-    Returns True in the second case. nbval itself waits for ever if the connections of a kernel are damaged.
+    Returns True if `record` did not grow for `silence` s. Without this limit, nbval would wait for ever if
+    the connections of a kernel are damaged.
     """
     size, deadline = 0, Deadline(silence)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
@@ -84,7 +86,7 @@ def _run_within_limits(command: list[str], record: Path, silence: float) -> bool
 
 
 def _unfinished(notebook: Notebook, record: Path, cell: float) -> str:
-    """Return a line of JSON: a failed result for the first cell that has no result.
+    """Return a line of JSON that reports the first cell without a result as failed.
 
     Return "" if all cells have a result.
     """
@@ -135,7 +137,7 @@ def _set_environment(folder: Path, record: Path, port: int) -> None:
 
 
 def _kernel_command(filter_file: Path) -> list[str]:
-    """Return the command of a kernel that cannot see the reference, the checks or other processes."""
+    """Return the command of a kernel that cannot read solutions, checks and other processes."""
     size, folders = str(confinement.DISK), (*confinement.MEMORY_FOLDERS, "/student")
     memory = [option for each in folders for option in ("--size", size, "--tmpfs", each)]
     shown = [option for each in confinement.shadowed_paths() for option in ("--ro-bind", each, each)]

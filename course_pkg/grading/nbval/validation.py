@@ -1,7 +1,4 @@
-"""Runs a rebuilt notebook with nbval, and finds the cells with outputs that differ from the reference.
-
-The results earn no points.
-"""
+"""Runs a graded notebook with nbval, and finds the cells whose outputs differ from those of the solution."""
 
 from __future__ import annotations
 
@@ -16,12 +13,12 @@ from course_pkg.grading.nbval.findings import finding
 from course_pkg.grading.plan import Plan
 from course_pkg.sandbox.linux.bubblewrap import sandbox_command
 
-# On an idle machine, a cell may run for this time in s. With this limit, nbval waits less than 60 s for a
+# CELL is the time limit of a cell in s, on an idle machine. With this limit, nbval waits less than 60 s for a
 # blocked kernel.
 CELL = 40
-LIMIT = 600.0  # A notebook may run for this time in s; the longest chapter takes 100 s.
+LIMIT = 600.0  # LIMIT is the time limit of a notebook in s; the longest chapter takes 100 s.
 LINE = 100  # LINE is the maximum number of characters of the first line of a cell.
-OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes of the whole output.
+OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes of nbval's output.
 
 
 def wanted(grade: Grade, whose: str) -> bool:
@@ -35,9 +32,9 @@ def wanted(grade: Grade, whose: str) -> bool:
 
 
 def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
-    """Return `grade` with the outcomes of the notebook's cells.
+    """Return `grade`, and add the result of nbval for each cell of the notebook.
 
-    If nbval gives no outcomes, a note says why.
+    If there are no results, a note in the grade says why.
     """
     if not grade.sandboxed:
         return replace(
@@ -74,5 +71,4 @@ def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL)
 
 
 def _first_line(source: str) -> str:
-    """Return the first non-empty line of a cell."""
     return next((line for line in source.splitlines() if line.strip()), "")[:LINE]

@@ -1,1 +1,1 @@
-"""Builds the notebook that is graded: the reference notebook with a student's answers."""
+"""Builds the notebook that is graded: the course's solution notebook with a student's answers."""

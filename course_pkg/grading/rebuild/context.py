@@ -1,9 +1,9 @@
-"""Finds the cells that an answer needs, by the names that these cells define.
+"""Finds the cells that an answer needs: the cells that define names that the answer uses.
 
-An answer is run only with the cells that its check needs (see checking/fixtures.py). However, an answer may
-also use names that these cells do not define, such as an import in a cell above or a function of an earlier
-answer. Therefore, the cells that define these names also run. If such a cell uses names of further cells, the
-further cells run, too.
+An answer is run only with the cells that its check needs (see checking/fixtures.py). However, an answer can
+also use names from other cells, such as an import in a cell above or a function of an earlier answer.
+Therefore, the cells that define these names also run. If one of these cells uses names that further cells
+define, the further cells run, too.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-# A cell with more characters is not parsed. Usual cells are shorter, and parsing a long cell takes too much
-# time.
+# A cell with more than LONGEST characters is not parsed, because the parsing would take too much time.
 LONGEST = 20_000
-# A cell with magics may have at most this many lines, because IPython's time grows with the square of the
-# number of lines.
+# A cell with magics and more than MAGICAL lines is not parsed, because IPython's time grows with the square
+# of the number of lines.
 MAGICAL = 300
-# These nodes have a separate scope: names that are assigned in them are not names of the cell.
+# The syntax nodes in SCOPES have a separate scope: later cells cannot use the names that are assigned in
+# them.
 SCOPES = (
     *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda),
     *(ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
@@ -37,7 +37,7 @@ class _Cell:
 
 
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
-    """Return the sources in `above` that `answer` needs, in their order.
+    """Return the sources of the cells in `above` that `answer` needs, in their order.
 
     The code in `before` always runs, so no other cell is needed for the names that this code defines.
     """
@@ -93,7 +93,7 @@ def _given(tree: ast.Module) -> frozenset[str]:
 
 
 def _bound(nodes: Iterable[ast.AST]) -> frozenset[str]:
-    """Return the names that these nodes assign, import or define, and the names of caught exceptions."""
+    """Return the names that the syntax nodes assign, import or define, and the names of caught exceptions."""
     names: set[str | None] = set()
     for node in nodes:
         if isinstance(node, ast.Import | ast.ImportFrom):

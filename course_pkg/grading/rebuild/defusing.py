@@ -1,8 +1,8 @@
-"""Removes nbval's markers and cell magics from a student's source, because both change how the cell runs.
+"""Removes nbval's markers and cell magics from a student's code, because both change how the cell runs.
 
 If any line contains a comment such as `# NBVAL_SKIP`, nbval treats the cell differently. If the first line is
-a cell magic, IPython passes the whole cell to this magic. With such a comment or magic, an answer could avoid
-its check.
+a cell magic, IPython passes the whole cell to this magic. With such a comment or magic, a student's answer
+could avoid the check.
 """
 
 from __future__ import annotations
@@ -30,16 +30,16 @@ Transform: TypeAlias = Callable[[list[str]], list[str]]
 
 @dataclass(frozen=True)
 class Defused:
-    """A source that is safe to run, and notes for the student about the changes."""
+    """An answer's code without markers and magics, and notes for the student about the changes."""
 
     source: str
     notes: tuple[str, ...] = ()
 
 
 def defuse(source: str, first_line: str = "") -> Defused:
-    """Return a safe version of an answer's source.
+    """Return the code of an answer without nbval's markers and without cell magics.
 
-    `first_line` is the cell magic (%%…) of the reference cell, or an empty string.
+    `first_line` is the cell magic (%%…) that the exercise needs, or an empty string.
     """
     kept, notes = _readable(source)
     kept, about_magic = _with_magic(kept, first_line) if first_line else _without_magic(kept)
@@ -53,7 +53,7 @@ def magic_of(source: str) -> str:
 
 
 def _readable(source: str) -> tuple[str, list[str]]:
-    """Return the source without characters that Python or UTF-8 cannot contain."""
+    """Return the source without characters that a Python file or UTF-8 cannot contain."""
     kept = source.replace("\r\n", "\n").replace("\r", "\n").replace("\x00", "")
     kept = kept.encode("utf-8", "replace").decode("utf-8")  # A question mark replaces a surrogate.
     if kept != source.replace("\r\n", "\n").replace("\r", "\n"):
@@ -64,7 +64,7 @@ def _readable(source: str) -> tuple[str, list[str]]:
 
 
 def _as_ipython_reads(source: str) -> list[str]:
-    """Return the lines in which IPython searches for a magic.
+    """Return a cell's lines after the changes that IPython makes before it searches for a magic.
 
     The lines have no indentation and no prompts, and no line is empty.
     """
@@ -98,7 +98,7 @@ def _with_magic(source: str, first_line: str) -> tuple[str, list[str]]:
 
 
 def _without_markers(source: str) -> tuple[str, list[str]]:
-    """Put brackets around each nbval marker. Split the text with str.splitlines, as nbval does."""
+    """Put brackets around each nbval marker, so that nbval ignores the marker."""
     lines = source.splitlines(keepends=True)
     found = [_marker(line) for line in lines]
     if not any(found):

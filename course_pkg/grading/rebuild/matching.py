@@ -3,7 +3,7 @@
 The cell of an exercise is found by its id. A copied cell has a new id, so the cell is also found by its
 metadata. If no cell has the right id or metadata, the cell is found by the names that it defines, or by the
 file that it writes. If there are several such cells, the last non-blank cell is used. If the student has
-split the answer into several cells, the cells directly below belong to the answer.
+split the answer into several cells, the cells directly below also belong to the answer.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from course_pkg.grading.rebuild.defusing import TAGS
 from course_pkg.grading.rebuild.wanted import Wanted, defined, lent, used, written_path
 
 LONGEST = 100_000  # An answer may have at most this many characters.
-BELOW = 50  # At most this many cells below an exercise may belong to its answer.
+BELOW = 50  # Of the cells below an exercise, at most this many can be part of the answer.
 
 
 @dataclass(frozen=True)
@@ -41,14 +41,14 @@ class _Run:
 
 
 class Matching:
-    """Compares a student's cells with the exercises of the reference."""
+    """Compares a student's cells with the exercises of a chapter."""
 
     def __init__(
         self, cells: Sequence[StudentCell], wanted: Sequence[Wanted], given: Mapping[str, str]
     ) -> None:
-        """`given` contains the sources of all reference cells that are not exercises.
+        """`given` contains the sources of the solution notebook's cells that are not exercises.
 
-        The keys are the ids of the cells.
+        The keys of `given` are the ids of the cells.
         """
         self._cells = cells
         self._given = given
@@ -85,7 +85,7 @@ class Matching:
         )
 
     def lent(self, taken: frozenset[int]) -> set[str]:
-        """Return the names that are defined in cells that belong to no answer, but not in the reference."""
+        """Return the names that the student defined in cells that belong to no answer."""
         names: set[str] = set()
         for place, cell in enumerate(self._cells):
             if place not in taken and cell.kind == "code" and not self._owners[place]:
@@ -95,14 +95,14 @@ class Matching:
         return names
 
     def _is_own(self, place: int) -> bool:
-        """Return whether the student added the cell: it is neither an exercise nor in the reference."""
+        """Return whether the student added the cell: the course's notebook does not contain this cell."""
         cell = self._cells[place]
         return not (cell.check or cell.id in self._given or cell.source.strip() in self._texts)
 
     def _runs(self, wanted: Wanted) -> Iterator[_Run]:
         """Yield the possible answers to the exercise.
 
-        Each answer is a cell, together with following cells if the student split the answer.
+        A possible answer is one cell, or several consecutive cells if the student split the answer.
         """
         run: list[int] = []
         above = _Above()
@@ -117,7 +117,7 @@ class Matching:
             yield self._run([*run, *self._rest(run[-1], above, wanted)])
 
     def _rest(self, last: int, above: _Above, wanted: Wanted) -> list[int]:
-        """Return the indices of the student's own cells directly below `last` that belong to the answer."""
+        """Return the indices of the cells below the cell `last` that the student added to the answer."""
         taken: list[int] = []
         pending: list[int] = []
         for place in range(last + 1, min(last + 1 + BELOW, len(self._cells))):
@@ -144,7 +144,7 @@ class Matching:
 
 
 class _Above:
-    """The cells that already belong to an answer, and the names, words and lines in these cells."""
+    """The cells that are already part of an answer, and the names, words and lines in these cells."""
 
     def __init__(self) -> None:
         self._last = StudentCell("", "", "")
@@ -184,7 +184,7 @@ class _Above:
 
 
 def _matched(runs: Sequence[_Run]) -> Match:
-    """Return the last of several possible answers, with notes for the student."""
+    """Return the last of the possible answers to an exercise, with notes for the student."""
     chosen = runs[-1]
     notes = []
     if len({run.source.strip() for run in runs}) > 1:

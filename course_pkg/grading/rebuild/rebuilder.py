@@ -1,6 +1,7 @@
 """Builds the notebook that is graded.
 
-The notebook is the reference notebook with a student's answers; all other cells of the student are left out.
+The graded notebook is the course's solution notebook (the reference) with a student's answers in the exercise
+cells. All other cells of the student are left out.
 """
 
 from __future__ import annotations
@@ -16,20 +17,20 @@ from course_pkg.grading.rebuild.defusing import defuse
 from course_pkg.grading.rebuild.matching import Match, Matching
 from course_pkg.grading.rebuild.wanted import defined, every_wanted, used
 
-NOTES = 40  # At most this many notes are given, because more notes would not help the student.
+NOTES = 40  # At most this many notes are given to a student.
 
 
 @dataclass(frozen=True)
 class Rebuilt:
-    """The notebook that is graded; each part of the reference is either in `answers` or in `missing`."""
+    """The notebook that is graded; each exercise is either in `answers` or in `missing`."""
 
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
-    # `answers` contains, for each part, the source that runs; this can be the unchanged blank cell.
+    # `answers` contains the source that runs for each exercise, even if it is the unchanged exercise cell.
     answers: Mapping[str, str]
-    # The keys are the parts without an answer, and each value is the reason that the student sees.
+    # `missing` contains the exercises without an answer; each value is the reason that the student sees.
     missing: Mapping[str, str] = field(default_factory=dict)
-    untouched: frozenset[str] = frozenset()  # The student did not change the cells of these parts.
-    notes: tuple[str, ...] = ()  # The notes tell the student about everything unusual in the notebook.
+    untouched: frozenset[str] = frozenset()  # The student did not change the cells of these exercises.
+    notes: tuple[str, ...] = ()  # Each note tells the student about something unusual in the notebook.
     problem: str = ""  # `problem` is the reason why the notebook could not be used.
 
 
@@ -42,10 +43,10 @@ def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
 
 
 class Rebuilder:
-    """A reference notebook; the same object is used for all students.
+    """Puts students' answers into the solution notebook of a chapter; one object is used for all students.
 
-    If an answer is missing, the notebook contains the blank cell of the exercise, never the solution. Cells
-    that are not exercises share their output objects with the reference.
+    If an answer is missing, the graded notebook contains the unchanged exercise cell, never the solution. The
+    other cells share their output objects with the solution notebook.
     """
 
     def __init__(self, reference: Notebook) -> None:
@@ -87,7 +88,7 @@ class Rebuilder:
 
 
 def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
-    """Return a copy of the reference with these sources in its exercise cells.
+    """Return a copy of the solution notebook `reference` in which the exercise cells contain `sources`.
 
     The exercise cells have no execution count, so nbval does not compare their outputs.
     """
@@ -100,7 +101,7 @@ def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
 
 
 def _lent(cells: Sequence[StudentCell], matching: Matching, matches: Mapping[str, Match]) -> set[str]:
-    """Return the names that an answer may use from cells that are not graded."""
+    """Return the names that the student defined only in cells that are not graded."""
     taken = frozenset(place for match in matches.values() for place in match.cells)
     names = matching.lent(taken) if len(taken) < len(cells) else set()
     for match in matches.values():

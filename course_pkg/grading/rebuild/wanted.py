@@ -1,7 +1,7 @@
-"""Finds the names and files of an exercise in the reference, and the names that a source defines.
+"""Finds the names and files that an exercise asks for, and the names that a student's cell defines.
 
-A student's source is searched line by line. It is not parsed, because some sources would make a parser very
-slow, or crash it.
+A student's code is searched line by line. It is not parsed, because some code makes a parser very slow, or
+crashes it.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
 from course_pkg.grading.rebuild.defusing import WRITES, magic_of
 
-SCANNED = 200_000  # At most this many characters of a source are searched.
+SCANNED = 200_000  # At most this many characters of a cell are searched.
 DEFINED = re.compile(r"^(?:async[ \t]+)?(?:def|class)[ \t]+(\w+)", re.MULTILINE)
 ASSIGNED = re.compile(r"^(\w+)[ \t]*(?::[^=\n]{1,200})?=(?!=)", re.MULTILINE)
 IMPORTED = re.compile(r"^(?:import|from[ \t]+[\w.]+[ \t]+import)[ \t]+([^\n#]{1,1000})", re.MULTILINE)
@@ -22,14 +22,14 @@ WORD = re.compile(r"[^\W\d]\w*")
 
 @dataclass(frozen=True)
 class Wanted:
-    """One exercise of the reference."""
+    """One exercise in the solution notebook."""
 
     part: str
     cell: str  # `cell` is the id of the exercise cell.
-    blank: str  # `blank` is the blank cell in the student's notebook.
+    blank: str  # `blank` is the unchanged exercise cell that students get.
     first_line: str  # `first_line` is the cell magic in the first line, such as `%%writefile src/Area.srv`.
-    names: frozenset[str]  # An answer defines these names at the top level.
-    # These are lines of the blank cell that define no name, such as rospy.Service(…).
+    names: frozenset[str]  # A student's answer has to define these names at the top level.
+    # `wiring` contains the lines of the exercise cell that define no name, such as rospy.Service(…).
     wiring: frozenset[str]
 
     @property
@@ -38,12 +38,12 @@ class Wanted:
         return written_path(self.first_line)
 
     def is_blank(self, source: str) -> bool:
-        """Return whether a source equals the blank cell, except for spaces at the ends of lines."""
+        """Return whether `source` is the unchanged exercise cell; spaces at the ends of lines are ignored."""
         return _plain(source) == _plain(self.blank)
 
 
 def every_wanted(reference: Notebook) -> list[Wanted]:
-    """Return the exercises of a solution, in their order."""
+    """Return the exercises of a solution notebook, in their order."""
     return [
         _wanted(part, cell["id"], cell["source"])
         for cell in code_cells(reference)
@@ -69,20 +69,20 @@ def _wanted(part: str, cell: str, solution: str) -> Wanted:
 
 
 def defined(source: str) -> set[str]:
-    """Return the names that a source defines, assigns or imports at the top level."""
+    """Return the names that a cell's code defines, assigns or imports at the top level."""
     text = source[:SCANNED]
     return {*DEFINED.findall(text), *ASSIGNED.findall(text), *_imported(text)}
 
 
 def lent(source: str) -> set[str]:
-    """Return the names in a source that another cell may use: functions, classes, imports and CONSTANTS."""
+    """Return the names in a cell that other cells probably use: functions, classes, imports and CONSTANTS."""
     text = source[:SCANNED]
     constants = {name for name in ASSIGNED.findall(text) if name.isupper()}
     return {*DEFINED.findall(text), *constants, *_imported(text)}
 
 
 def used(source: str) -> set[str]:
-    """Return all identifiers and other words in a source."""
+    """Return all identifiers and other words in a cell's code."""
     return set(WORD.findall(source[:SCANNED]))
 
 

@@ -1,4 +1,4 @@
-"""The assigned chapters, whose points are in a student's total even without a submission."""
+"""The assigned chapters, which count in a student's total even without a submission."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ class Column:
 
 @dataclass(frozen=True)
 class Asked:
-    """The chapters of a run, the selected parts, and a function that returns whether a chapter is due.
+    """The chapters and the selected parts of a run; `due` returns whether a chapter's deadline has passed.
 
-    A report also contains chapters of earlier runs. Before the deadline, a chapter counts only for students
+    Reports also contain the chapters of earlier runs. Before the deadline, a chapter counts only for students
     who have submitted it.
     """
 
     chapters: frozenset[str] = frozenset()
     columns: tuple[Column, ...] = ()
-    # The first argument is the student, or "" for all other students; the second argument is the chapter.
+    # The arguments of `due` are a student (or "" for an unknown student) and a chapter.
     due: Callable[[str, str], bool] = _always
 
     def counted(self, student: str, grades: Sequence[Grade], asked: Sequence[str]) -> list[str]:
-        """Return the chapters of `asked` that count for a student with these `grades`.
+        """Return the chapters in `asked` that count for a student who has the grades `grades`.
 
         If a student has only results from earlier runs, the student has probably left the course. In this
         case, only the chapters with a grade count.
@@ -50,7 +50,7 @@ class Asked:
 
 
 def columns_of(selected: Sequence[str], table: PointsTable) -> tuple[Column, ...]:
-    """Return the parts of the `selected` chapters, with their points."""
+    """Return the parts of the chapters `selected`, with their maximum points."""
     return tuple(
         Column(part.check, chapter, part.goal, table.parts[part.check].possible)
         for chapter in selected

@@ -1,7 +1,4 @@
-"""Flags in the instructor's reports: a section of class.html, and a column of grades.csv.
-
-The feedback for students never contains a flag.
-"""
+"""Flags in the instructor's reports: a section of class.html, and a column of grades.csv."""
 
 from __future__ import annotations
 
@@ -13,7 +10,7 @@ from course_pkg.grading.grade import Flag
 from course_pkg.grading.reports.gradebook import Book, name_of
 from course_pkg.grading.reports.page import paragraph, text
 
-OTHERS = 10  # A flag lists at most this many other students.
+OTHERS = 10  # A report lists at most this many other students for one flag.
 ABOUT = (
     "A flag is a reason to look at an answer yourself. A flag does not change points, and the "
     "feedback for students contains no flags."
@@ -22,7 +19,7 @@ Flagged = tuple[str, str, Flag]  # The tuple contains the student, the chapter a
 
 
 def flag_sections(book: Book) -> Iterator[str]:
-    """Yield the section about flags, with a list of students for each kind.
+    """Yield the section about flags, with a list of students for each kind of flags.
 
     Without flags, yield nothing.
     """
@@ -40,7 +37,7 @@ def flag_sections(book: Book) -> Iterator[str]:
 
 
 def flag_words(book: Book, student: str) -> str:
-    """Return the flags of a student as one text, such as "05.2, line 3: It opens a file."."""
+    """Return the flags of a student as one text: the part, the line and the reason of each flag."""
     return " | ".join(_line(chapter, flag) for owner, chapter, flag in _flagged(book) if owner == student)
 
 

@@ -1,4 +1,4 @@
-"""The grades of a class, in the order in which reports show them."""
+"""The grades of a class, sorted for the reports."""
 
 from __future__ import annotations
 
@@ -21,10 +21,9 @@ ABSENT = "These results are from an earlier run. In the latest run, nothing was 
 
 
 class Book:
-    """Grades by student, chapter and part.
+    """The grades of a class, by student and chapter.
 
-    If a submission ran without a sandbox, or if this run had no submission, the grade contains a note about
-    this.
+    A grade gets a note if the submission ran without a sandbox, or if this run had no submission.
     """
 
     def __init__(
@@ -56,7 +55,7 @@ class Book:
         return self._by_student.get(student, [])
 
     def grade(self, student: str, chapter: str) -> Grade | None:
-        """Return a student's grade for a chapter, or None without a submission."""
+        """Return a student's grade for a chapter, or None if there is no grade."""
         return next((grade for grade in reversed(self.of(student)) if grade.chapter == chapter), None)
 
     def columns_of(self, chapter: str) -> list[Column]:
@@ -72,10 +71,7 @@ class Book:
         return round(sum(grade.earned for grade in self.of(student)), 2)
 
     def counted(self, student: str) -> list[str]:
-        """Return the chapters that count for a student, who may have no submission.
-
-        The chapters that were assigned count; see Asked.
-        """
+        """Return the chapters that count for a student, even if the student has no submission."""
         return self._asked.counted(student, self._by_student.get(student, []), self.chapters)
 
     def possible_for(self, student: str) -> float:
@@ -89,22 +85,22 @@ class Book:
 
 
 def report_of(grade: Grade | None, check: str) -> Report | None:
-    """Return the report on a part, or None."""
+    """Return the report on a part, or None if there is no such report."""
     return next((report for report in grade.reports if report.check == check), None) if grade else None
 
 
 def name_of(student: str) -> str:
-    """Return a student's name as a report shows it."""
+    """Return a student's name as text for a report."""
     return clean.line(student, 120) or "(nobody)"
 
 
 def points(value: float) -> str:
-    """Return points as a report shows them: 2, 1.5, 0.33."""
+    """Return points as text for a report, such as "2", "1.5" or "0.33"."""
     return f"{value:.2f}".rstrip("0").rstrip(".")
 
 
 def about_lateness(grade: Grade) -> str:
-    """Return the message for a student about the deadline, or "" for a submission that was in time."""
+    """Return a message that tells a student how late the submission was, or "" if it was in time."""
     if grade.late <= 0:
         return ""
     late = f"Handed in {_duration(grade.late)} late"
@@ -147,7 +143,7 @@ def attention(book: Book, student: str) -> list[str]:
 
 
 def not_handed_in(book: Book, student: str) -> str:
-    """Return a sentence that lists the chapters for which a student has no submission, or ""."""
+    """Return a sentence about the chapters that a student has not submitted, or ""."""
     there = {grade.chapter for grade in book.of(student)}
     missing = [chapter for chapter in book.counted(student) if chapter not in there]
     if not missing:
@@ -157,8 +153,8 @@ def not_handed_in(book: Book, student: str) -> str:
 
 
 def notes(book: Book, student: str) -> list[str]:
-    """Return the notes about a student's notebooks, except the notes that attention() reports."""
-    known = (ABSENT, NO_TIME)  # attention() has a sentence about each of these notes.
+    """Return the notes about a student's notebooks that attention() does not report."""
+    known = (ABSENT, NO_TIME)  # attention() already reports these notes.
     found = (note for grade in book.of(student) for note in grade.notes if note not in known)
     return list(dict.fromkeys(clean.line(note) for note in found))
 
@@ -204,7 +200,7 @@ def _about(grade: Grade) -> str:
 
 
 def _inconclusive(grade: Grade) -> list[str]:
-    """Return a sentence for each part with an unfinished check."""
+    """Return a sentence for each part whose check could not finish."""
     return [
         f"{report.check} has 0 points, because the check could not finish. Look at the answer. "
         f"{clean.line(report.note, 160)}"

@@ -1,4 +1,4 @@
-"""The HTML frame of a page without scripts.
+"""Functions that create HTML pages without scripts.
 
 The page's Content-Security-Policy permits only the page's own style sheet.
 """
@@ -38,7 +38,7 @@ class Frame:
         )
 
     def page(self, title: str, body: Iterable[str]) -> str:
-        """Return a page; `body` is HTML, and `title` can be any text."""
+        """Return a page; `body` is HTML, and `title` is text whose HTML characters are escaped here."""
         inside = "\n".join(body)
         title = f"<title>{clean.html(clean.line(title))}</title>"
         return f"{self._head}{title}\n</head>\n<body>\n<main>\n{inside}\n</main>\n</body>\n</html>\n"
@@ -50,14 +50,14 @@ def text(value: object, limit: int = clean.SHORT) -> str:
 
 
 def paragraph(value: object, kind: str = "") -> str:
-    """Return a paragraph with one text, or nothing for an empty text."""
+    """Return an HTML paragraph that contains the text, or "" if the text is empty."""
     shown = text(value, 1000)
     attribute = f' class="{kind}"' if kind else ""
     return f"<p{attribute}>{shown}</p>" if shown else ""
 
 
 def banner(title: str, sentences: Sequence[str]) -> str:
-    """Return a highlighted box with these sentences, or "" if there are no sentences."""
+    """Return a highlighted box that contains `sentences`, or "" if there are no sentences."""
     shown = [sentence for value in sentences if (sentence := text(value, 1000))]
     if not shown:
         return ""
@@ -69,9 +69,10 @@ def banner(title: str, sentences: Sequence[str]) -> str:
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numbers: int) -> str:
     """Return an HTML table.
 
-    The first cell of each row is a header. The last `numbers` columns contain numbers.
+    The first cell of each row is a header cell. The last columns contain numbers; `numbers` is the number of
+    these columns.
 
-    The cells in `rows` are HTML; `caption` and `head` can be any text.
+    The cells in `rows` are HTML; `caption` and `head` are text whose HTML characters are escaped here.
     """
     numeric = len(head) - numbers
 

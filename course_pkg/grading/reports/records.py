@@ -15,7 +15,7 @@ RESULTS = "results"
 
 
 def record_path(out: Path, student: str, chapter: str, origin: str = "") -> Path:
-    """Return the path of a grade's record; without a chapter, the file name depends on `origin`."""
+    """Return the path of a grade's record; if `chapter` is empty, the file name depends on `origin`."""
     name = clean.file_name(chapter) if chapter else f"none-{hashlib.sha256(origin.encode()).hexdigest()[:10]}"
     return out / RESULTS / clean.file_name(student or "nobody") / f"{name}.json"
 
@@ -29,14 +29,14 @@ def write_record(out: Path, grade: Grade) -> Path:
 
 
 def read_grades(out: Path) -> list[Grade]:
-    """Return the grades in `out`, sorted by student and chapter."""
+    """Return the grades in the folder `out`, sorted by student and chapter."""
     paths = sorted(path for path in (out / RESULTS).glob("*/*.json") if not path.name.startswith("."))
     grades = [_read(path, f"record {number} of {len(paths)}") for number, path in enumerate(paths, 1)]
     return sorted(grades, key=lambda grade: (grade.student, grade.chapter, grade.origin))
 
 
 def _read(path: Path, which: str) -> Grade:
-    """Return the grade in a record; error messages identify the record without the student's name."""
+    """Return the grade in a record; error messages contain `which` in place of the student's name."""
     try:
         return grade_from(json.loads(path.read_text("utf-8")))
     except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:

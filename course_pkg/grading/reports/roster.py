@@ -20,7 +20,7 @@ values = attrgetter(*FIELDS)
 
 
 def about_identity(book: Book, student: str) -> list[str]:
-    """Return the reasons why the student was not found in the instructor's lists."""
+    """Return the reasons why a student was not found in the roster or in the worksheet."""
     known = book.class_list
     reason = known.unclear.get(student, "")
     return [
@@ -31,7 +31,7 @@ def about_identity(book: Book, student: str) -> list[str]:
 
 
 def identity_cells(person: Person | None) -> list[str]:
-    """Return the cells with name, id, email, username and section."""
+    """Return cells for a table: name, id, email, username and section."""
     return [clean.cell(value) for value in values(person or Person())]
 
 
@@ -46,7 +46,7 @@ def lead(book: Book) -> str:
 
 
 def section(book: Book) -> Iterator[str]:
-    """Yield the section of class.html about the roster, if the instructor gave a list."""
+    """Yield the section of class.html about the roster; without a roster or a worksheet, yield nothing."""
     known = book.class_list
     if not known.given:
         return

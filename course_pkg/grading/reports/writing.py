@@ -15,10 +15,11 @@ from course_pkg.grading.reports.gradebook import Book
 from course_pkg.grading.roster.class_list import ClassList
 
 Writer = Callable[[Book, Path], None]
-# Only the reports in this tuple contain students with an empty folder, and students who have earlier results
-# but no new submission. A platform keeps the points of a student who is not in a report.
+# Only the reports in WITH_ABSENT contain students who have no submission in this run. The reports for
+# platforms do not contain these students, so that a platform does not change their points.
 WITH_ABSENT = ("class_page", "feedback", "records", "table")
-# A platform stores one score for each of these reports, so the reports contain only the chapters of this run.
+# A platform stores one score from each report in OF_ASSIGNMENT, so these reports contain only the chapters of
+# this run.
 OF_ASSIGNMENT = ("gradescope", "gradescope_table", "moodle_worksheet")
 
 
@@ -32,8 +33,6 @@ def write_reports(
 
     `class_list` contains the students' identities and the missing students. `asked` contains the chapters of
     this run; by default, it contains all chapters of `grades`.
-
-    Each module in `formats` writes one report with its function `write(book, out)`.
     """
     book = Book(grades, class_list, asked)
     chapters = asked.chapters if asked else ()

@@ -1,1 +1,1 @@
-"""Manual review: an instructor's points and comments, a page to enter them, and their use in grades."""
+"""Manual review: an instructor enters points and comments, and the course adds them to the grades."""

@@ -16,9 +16,9 @@ SHOWN = 10  # A line lists at most this many names.
 
 
 def answer_of(grade: Grade, part: str) -> str:
-    """Return a short text that identifies the student's answer; different answers have different texts.
+    """Return a short text that identifies an answer: a digest of the student's code.
 
-    The text begins with a letter, so a spreadsheet does not read it as a number.
+    The returned text begins with a letter, so that a spreadsheet does not read it as a number.
     """
     code = clean.code(grade.code.get(part, ""))
     return f"v{hashlib.sha256(code.encode()).hexdigest()[:10]}"
@@ -27,7 +27,7 @@ def answer_of(grade: Grade, part: str) -> str:
 def reviewed(grades: Sequence[Grade], overrides: Overrides) -> list[Grade]:
     """Return the grades with the points and comments of the instructor.
 
-    Before this call, `grades` contains only the points of the checks.
+    The argument `grades` must contain only the points of the checks.
     """
     return [
         replace(grade, reports=tuple(_reviewed(grade, report, overrides) for report in grade.reports))

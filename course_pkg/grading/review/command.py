@@ -52,7 +52,7 @@ def review(out: Path, wanted: Wanted, port: int, *, browser: bool) -> int:
 
 
 def wanted_of(parts: Sequence[str], *, flagged: bool, unfinished: bool) -> Wanted:
-    """Return the selection that the options describe."""
+    """Return the selection of answers for the command-line options."""
     return Wanted(tuple(map(two_digits, parts)), flagged, unfinished)
 
 

@@ -1,4 +1,4 @@
-"""The answers that an instructor reviews: one item for each student and part, sorted by part."""
+"""The answers that an instructor reviews; there is one item for each student and part."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ LINES = 2_000  # The page shows at most this many lines of an answer.
 
 @dataclass(frozen=True)
 class Item:
-    """The answer of one student to one part; `grade` has the points of the checks."""
+    """The answer of one student to one part; the points in `grade` are from the checks."""
 
     grade: Grade = field(repr=False)
     report: Report
-    answer: str  # `answer` is a text that identifies the answer.
+    answer: str  # `answer` is a digest of the student's code.
     flags: tuple[Flag, ...] = ()
 
     @property
@@ -43,7 +43,7 @@ class Item:
 
 @dataclass(frozen=True)
 class Wanted:
-    """The options --part, --flagged and --unfinished; without them, all answers are shown."""
+    """The options --part, --flagged and --unfinished; without these options, all answers are shown."""
 
     parts: tuple[str, ...] = ()
     flagged: bool = False
@@ -73,8 +73,8 @@ def items_of(grades: Sequence[Grade]) -> list[Item]:
 def is_unfinished(item: Item, overrides: Overrides) -> bool:
     """Return whether an instructor has to examine an answer.
 
-    There are two cases: the check gave no result and no instructor has reviewed the answer, or the answer has
-    changed after the review.
+    An instructor has to examine an answer if the check gave no result and there is no review, or if the
+    answer has changed after the review.
     """
     if row := overrides.rows.get(item.key):
         return is_outdated(row, item.grade)
@@ -83,7 +83,7 @@ def is_unfinished(item: Item, overrides: Overrides) -> bool:
 
 
 def identical(item: Item, items: Sequence[Item]) -> list[Item]:
-    """Return the other students' answers with the same code to the same part; [] for an empty answer."""
+    """Return other students' answers that have the same code for the same part; [] for an empty answer."""
     if not item.code.strip():
         return []
     return [
@@ -94,9 +94,9 @@ def identical(item: Item, items: Sequence[Item]) -> list[Item]:
 
 
 def marked_lines(item: Item) -> Iterator[tuple[str, str]]:
-    """Yield the lines of the answer as (kind, line), compared with the cell that students get.
+    """Compare an answer with the unchanged exercise cell that students get; yield (kind, line) for each line.
 
-    The kinds are "same", "added" and "removed". For an answer in a package, students get no cell, so all
+    The kinds are "same", "added" and "removed". For an answer in a package, there is no exercise cell, so all
     lines are "same".
     """
     lines = item.code.strip("\n").split("\n")[:LINES]
@@ -120,7 +120,7 @@ def numbers(check: str) -> list[int]:
 
 @cache
 def _handed_out(chapter: str) -> dict[str, str]:
-    """Return the cells that students get, by part; the result is empty for an unknown chapter."""
+    """Return the unchanged exercise cell for each part of a chapter, or {} for an unknown chapter."""
     try:
         (path,) = NotebookStore().solutions([chapter])
     except AuthoringError:
@@ -131,9 +131,9 @@ def _handed_out(chapter: str) -> dict[str, str]:
 def _flags_by_part(grade: Grade) -> dict[str, list[Flag]]:
     """Return the flags of each part.
 
-    A flag belongs to a part if it is about the part's cell or about one of the part's files.
+    A flag belongs to a part if the flag is about the part's cell or about a file of the part.
 
-    A flag that belongs to no part is added to the first part.
+    If a flag belongs to no part, the flag is added to the first part.
     """
     found: dict[str, list[Flag]] = {}
     checks = [report.check for report in grade.reports]

@@ -1,9 +1,10 @@
-"""overrides.csv: the points and comments of an instructor. The page and a spreadsheet can edit the file.
+"""overrides.csv: the points and comments of an instructor.
 
-The columns are student, chapter, part, points, comment and answer. When the course writes the file, other
-columns and empty lines do not change. A part is written as "Part 05.10", because a spreadsheet would change
-05.10 to 5.1. `answer` identifies the reviewed answer; the cell is empty in a row that was typed in a
-spreadsheet.
+An instructor can edit overrides.csv on the review page or in a spreadsheet.
+
+The columns are student, chapter, part, points, comment and answer. When the course writes the file,
+additional columns and empty lines do not change. A part is written as "Part 05.10", because a spreadsheet
+would change 05.10 to 5.1. The column answer contains a digest of the reviewed code, or is empty.
 """
 
 from __future__ import annotations
@@ -39,12 +40,12 @@ class Override:
 
     student: str
     part: str
-    points: float | None = None  # If the value is None, the points of the check are used.
+    points: float | None = None  # If `points` is None, the points of the check are used.
     comment: str = ""
     answer: str = ""
     # `line` is the number of the line in the file, counted from 1.
     line: int = field(default=0, compare=False)
-    # `bare` is True if the file contains the part without the word "Part".
+    # `bare` is True if the row contains the part without the word "Part".
     bare: bool = field(default=False, compare=False)
 
     @property
@@ -55,13 +56,13 @@ class Override:
 
 @dataclass(frozen=True)
 class Overrides:
-    """All contents of overrides.csv, including other columns and empty lines."""
+    """The contents of overrides.csv, including additional columns and empty lines."""
 
     path: Path
     rows: Mapping[Key, Override] = field(default_factory=dict)
     head: tuple[str, ...] = COLUMNS
     lines: tuple[tuple[str, ...], ...] = ()  # The tuple contains the cells of all lines after the first line.
-    # For each key, the value is the index of its row in `lines`.
+    # `places` contains, for each student and part, the index of the row in `lines`.
     places: Mapping[Key, int] = field(default_factory=dict)
     delimiter: str = ","
     digest: str = ""  # `digest` is a digest of the file's bytes.
@@ -92,7 +93,7 @@ class Overrides:
                 )
 
     def changed(self, changes: Mapping[Key, Override | None]) -> bytes:
-        """Return the file with the rows in `changes`; if the value of a key is None, its row is removed."""
+        """Return the new content of the file; if the value of a key in `changes` is None, remove the row."""
         lines: list[tuple[str, ...] | None] = list(self.lines)
         for key, row in changes.items():
             place = self.places.get(key)
@@ -127,7 +128,7 @@ class Overrides:
 def read_overrides(out: Path) -> Overrides:
     """Return the overrides in the folder `out`; without a file, the result is empty.
 
-    Raises GradingError with the number of the line if the file is not a table of overrides.
+    Raises GradingError with the line number if the file is not a table of overrides.
     """
     path = out / FILE
     if not path.exists():
@@ -158,7 +159,7 @@ def read_overrides(out: Path) -> Overrides:
 
 
 def save(current: Overrides, changes: Mapping[Key, Override | None]) -> Overrides:
-    """Write the changes to the file, completely or not at all; return the new contents.
+    """Write the changes to overrides.csv, completely or not at all; return the new contents.
 
     Raises OSError if the file cannot be written.
     """
@@ -188,7 +189,7 @@ def _decoded(path: Path, content: bytes) -> str:
 
 
 def _records(path: Path, text: str, delimiter: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the cells of each record, with the number of its first line."""
+    """Yield each record of the CSV file: the line number at which the record begins, and the cells."""
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
     line = 1
     try:
@@ -214,7 +215,7 @@ def _row(path: Path, line: int, cells: Mapping[str, str]) -> Override:
 
 
 def _part(path: Path, line: int, cell: str) -> str:
-    """Return the part in a cell, such as "05.2" for "Part 05.2", "05.2" and "5.2"."""
+    """Return the id of the part in a cell, such as "05.2" for "Part 05.2" or "5.2"."""
     named = cell.strip()
     part = two_digits(named.removeprefix(PREFIX.strip()))
     if not re.fullmatch(r"\d\d(\.\d+){1,2}", part):

@@ -1,4 +1,4 @@
-"""The server of the review page: it answers only requests that contain its token and come from its page."""
+"""The server of the review page; it refuses requests without its token, and requests from other pages."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ WAIT = 0.05  # s
 
 
 def application(session: Session, token: str, port: Callable[[], int]) -> Application:
-    """Return the application; `port` returns the port at which the server listens."""
+    """Return the web application; `port` returns the port at which the server listens."""
     shared = {"session": session, "token": token, "port": port, "templates": templates_in(HERE)}
     return Application(
         [
@@ -41,12 +41,13 @@ def application(session: Session, token: str, port: Callable[[], int]) -> Applic
         ],
         default_handler_class=Unknown,
         default_handler_args=shared,
-        log_function=lambda _handler: None,  # No log is needed, because the page shows refused requests.
+        # No log is needed, because the page shows refused requests.
+        log_function=lambda _handler: None,
     )
 
 
 class Handler(PageHandler):
-    """Refuses requests without the token, from other pages, or for another host."""
+    """Refuses a request that has no token, comes from another page, or has another host in its header."""
 
     def initialize(
         self, session: Session, token: str, port: Callable[[], int], templates: Environment
@@ -55,7 +56,7 @@ class Handler(PageHandler):
         self.session, self.token, self.port, self.templates = session, token, port, templates
 
     def prepare(self) -> None:
-        """Refuse a request that does not come from the page."""
+        """Refuse a request that has no token, or does not come from the review page."""
         hosts = [f"{host}:{self.port()}" for host in ("127.0.0.1", "localhost")]
         origin = self.request.headers.get("Origin")
         known = self.request.host in hosts and origin in (None, f"http://{self.request.host}")
@@ -90,7 +91,7 @@ class Handler(PageHandler):
 
 
 class Unknown(Handler):
-    """Answers requests for an address that does not exist."""
+    """Answers a request for an unknown address with the status 404."""
 
     def get(self) -> None:
         """Send 404."""
@@ -114,10 +115,10 @@ class Asset(Handler):
 
 
 class Items(Handler):
-    """Sends all answers and all rows to the browser."""
+    """Sends all answers, and all rows of overrides.csv, to the browser."""
 
     def get(self) -> None:
-        """Send all answers and rows."""
+        """Send all answers, and all rows of overrides.csv."""
         self.answer(self.session.describe())
 
 
@@ -146,12 +147,12 @@ class OneItem(Handler):
 
 
 class Rows(Handler):
-    """Sends all rows if another program has changed the file."""
+    """Sends all rows of overrides.csv if another program has changed this file."""
 
     async def get(self) -> None:
-        """Send all rows if another program has changed the rows since the last request of the page.
+        """Send all rows of overrides.csv if another program has changed the file since the last request.
 
-        If no other program has changed them, send an empty object.
+        If no other program has changed the file, send an empty JSON object.
         """
         session = self.session
         await self.attempt(lambda: {"rows": session.rows(), "reloaded": True} if session.refresh() else {})
@@ -174,7 +175,7 @@ class Save(Handler):
 
 
 class Undo(Handler):
-    """Undoes the last change."""
+    """Undoes the last change of points and comments."""
 
     async def post(self) -> None:
         """Undo the last change."""

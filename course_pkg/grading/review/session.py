@@ -1,4 +1,4 @@
-"""A review: the answers, the overrides that the page last received, and the changes that can be undone."""
+"""The state of a review: the answers, the rows of overrides.csv, and the changes that can be undone."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from course_pkg.grading.review.overrides import (
 )
 from course_pkg.types.fields import Plain
 
-QUIET = 0.3  # If another program changed the file less than this many s ago, the file may be incomplete.
+QUIET = 0.3  # If another program changed the file less than this many s ago, the file can be incomplete.
 Rows = Mapping[Key, Override | None]
 
 
@@ -39,8 +39,9 @@ class Step:
 class Session:
     """The review of one folder of results.
 
-    Each method that changes a row first reads overrides.csv again, so changes by a spreadsheet are not lost.
-    The methods raise GradingError if the file has a wrong row, and OSError if it cannot be written.
+    Each method that changes a row first reads overrides.csv again, so that changes by another program are not
+    lost. The methods raise GradingError if a row of the file is wrong, and OSError if the file cannot be
+    written.
     """
 
     def __init__(self, out: Path, grades: Sequence[Grade], wanted: Wanted) -> None:
@@ -53,7 +54,7 @@ class Session:
         self._numbers = {item.key: number for number, item in enumerate(self.items)}
 
     def describe(self) -> dict[str, Plain]:
-        """Return the answers and all rows for the page."""
+        """Return the data for the page: all answers, and all rows of overrides.csv."""
         items = [
             {
                 "name": name_of(item.grade.student),
@@ -68,15 +69,15 @@ class Session:
         return {"items": items, "rows": self.rows(), "undo": len(self._steps)}
 
     def rows(self) -> dict[str, Plain]:
-        """Return all rows about the answers of this review; the keys are the numbers of the answers."""
+        """Return the rows about the answers of this review; the keys are the numbers of the answers."""
         return self._shown(self._overrides.rows)
 
     def alike(self, number: int) -> list[Item]:
-        """Return the answers of other students that are identical to an answer."""
+        """Return the answers of other students that are identical to the answer `number`."""
         return identical(self.items[number], self._all)
 
     def is_being_written(self) -> bool:
-        """Return whether another program has just changed the file, so that the file may be incomplete."""
+        """Return whether another program has just changed overrides.csv; such a file can be incomplete."""
         try:
             written = self._overrides.path.stat().st_mtime
         except OSError:
@@ -84,7 +85,7 @@ class Session:
         return -QUIET < time.time() - written < QUIET and self._is_changed()
 
     def refresh(self) -> bool:
-        """Read the file again; return whether another program has changed it."""
+        """Read overrides.csv again; return whether another program has changed this file."""
         before, self._overrides = self._overrides, self._read()
         if before.rows and not self._overrides.digest:
             self._overrides = before
@@ -95,7 +96,9 @@ class Session:
         return before.digest != self._overrides.digest
 
     def decide(self, number: int, points: str, comment: str, *, also_identical: bool) -> dict[str, Plain]:
-        """Store points and a comment, and return the changed rows. If both are empty, the row is removed.
+        """Store the points and the comment for an answer, and return the changed rows.
+
+        If the points and the comment are empty, the row is removed.
 
         Raises ValueError if the points are not a number, or are higher than the maximum.
         """
@@ -115,9 +118,9 @@ class Session:
     def undo(self) -> dict[str, Plain]:
         """Undo the last change, and return the restored rows.
 
-        In the result, `shown` is the number of a restored answer.
+        In the result, `shown` is the number of the first answer whose row was restored.
 
-        Raises ValueError if there is nothing to undo, or if another program has changed a row since then.
+        Raises ValueError if there is nothing to undo, or if another program has changed one of the rows.
         """
         if not self._steps:
             raise ValueError("there is no change to undo")
@@ -148,7 +151,7 @@ class Session:
         try:
             return read_overrides(self._out).digest != self._overrides.digest
         except GradingError:
-            return True  # In an incomplete file, a wrong row is allowed.
+            return True  # A wrong row is not reported, because the file can be incomplete.
 
     def _shown(self, rows: Rows) -> dict[str, Plain]:
         numbered = ((self._numbers.get(key), row) for key, row in rows.items())

@@ -1,1 +1,1 @@
-"""Reads an instructor's class list and Moodle's grading worksheet, and finds a student's row in them."""
+"""Reads an instructor's class list and Moodle's grading worksheet, and finds the row of a student."""

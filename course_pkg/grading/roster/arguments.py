@@ -1,4 +1,4 @@
-"""The options of `course grade` for an instructor's lists."""
+"""The options of `course grade` for a roster and for Moodle's worksheet."""
 
 from __future__ import annotations
 

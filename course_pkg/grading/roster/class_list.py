@@ -1,4 +1,4 @@
-"""The identities of the students, from an instructor's lists and from the names that platforms use."""
+"""Finds the identities of students in an instructor's lists, and in the names that platforms use."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from course_pkg.grading.roster.worksheet import Participant, Worksheet, read_wor
 
 ROSTER, WORKSHEET = "the roster", "Moodle's worksheet"
 SHOWN = 10  # SHOWN is the maximum number of names in one sentence.
-# For each student, the value contains the paths of the submitted files.
+# For each student, Origins contains the paths of the submitted files.
 Origins = Mapping[str, Sequence[str]]
 
 
@@ -23,7 +23,7 @@ Origins = Mapping[str, Sequence[str]]
 class ClassList:
     """The identities of the students with submissions.
 
-    The list is empty if there is neither a roster nor a worksheet.
+    The class list is empty if there is neither a roster nor a worksheet.
     """
 
     people: Mapping[str, Person] = field(default_factory=dict)  # The keys are the students' names.
@@ -31,10 +31,10 @@ class ClassList:
     found: int = 0  # `found` is the number of students on the roster who have a submission.
     missing: tuple[Person, ...] = ()  # These students are on the roster, but have no submission.
     strangers: tuple[str, ...] = ()  # These students have a submission, but are not on the roster.
-    # The values are the reasons why a student was not found.
+    # `unclear` contains the students who were not found; each value is the reason.
     unclear: Mapping[str, str] = field(default_factory=dict)
     worksheet: Worksheet | None = None
-    # The keys are the students' names, and the values are the participants in the worksheet.
+    # `participants` contains the participant in the worksheet for each student.
     participants: Mapping[str, Participant] = field(default_factory=dict)
     unlisted: tuple[str, ...] = ()  # These students have a submission, but are not in the worksheet.
 
@@ -44,7 +44,7 @@ class ClassList:
         return self.roster is not None or self.worksheet is not None
 
     def summary(self) -> Iterator[str]:
-        """Yield sentences for the terminal about students who are missing, not listed, or not identified."""
+        """Yield sentences for the terminal about students who are missing, or not found in a list."""
         if self.roster is not None:
             yield f"Roster: {self.found} of {len(self.roster)} students handed in their work."
             yield from _counted("handed in nothing", "handed in nothing", list(labels(self.missing)))
@@ -76,7 +76,7 @@ class ClassList:
 
 @dataclass(frozen=True)
 class Lists:
-    """The lists that an instructor gave; they are read before the grading begins."""
+    """The roster and the worksheet that an instructor gave; both are read before the grading begins."""
 
     roster: tuple[Person, ...] | None = None
     worksheet: Worksheet | None = None
@@ -84,7 +84,7 @@ class Lists:
     def matched(self, origins: Origins, source: Path | None = None) -> ClassList:
         """Return the identities of the students with submissions.
 
-        `source` is the folder or the zip of all submissions; it may contain Gradescope's metadata.
+        `source` is the folder or the zip of all submissions, which can contain Gradescope's metadata.
         """
         students = [student for student in origins if student]
         platform = _platform(origins, source, self.worksheet.word if self.worksheet else "")
@@ -92,8 +92,7 @@ class Lists:
         sheet = _Search([each.person for each in listed], WORKSHEET)
         roster = _Search(self.roster or (), ROSTER)
         for student in students:
-            # If the submission is not from a platform, an instructor or a script chose the name of the
-            # folder.
+            # If no platform is used, the folder name can contain any field of the student.
             text = "" if student in platform else student
             sheet.search(student, platform.get(student), text)
             roster.search(student, _joined(sheet.found.get(student), platform.get(student)), text)
@@ -120,7 +119,7 @@ class Lists:
 
 
 def read_lists(roster: Path | None, worksheet: Path | None) -> Lists:
-    """Read the two lists; raises GradingError if a file cannot be used."""
+    """Read the roster and the worksheet; raise GradingError if a file cannot be used."""
     return Lists(
         read_roster(roster) if roster else None,
         read_worksheet(worksheet) if worksheet else None,
@@ -128,9 +127,9 @@ def read_lists(roster: Path | None, worksheet: Path | None) -> Lists:
 
 
 class _Search:
-    """Finds each student's row in one list.
+    """Finds each student's row in one list (the roster or the worksheet).
 
-    `unclear` contains the students for whom several rows are possible, with the reasons.
+    `unclear` contains the students for whom several rows are possible; the values are the reasons.
     """
 
     def __init__(self, people: Iterable[Person], title: str) -> None:
@@ -138,17 +137,15 @@ class _Search:
         self._title = title
         self.found: dict[str, Person] = {}
         self.unclear: dict[str, str] = {}
-        self.lines: set[int] = set()  # The lines with these numbers belong, or may belong, to a student.
+        # `lines` contains the numbers of the lines that belong, or can belong, to a student.
+        self.lines: set[int] = set()
 
     def decided(self, student: str) -> bool:
-        """Return whether the search for a student is finished.
-
-        The search is finished if the row was found, or if several rows are possible.
-        """
+        """Return whether the row of a student was found, or several rows are possible."""
         return student in self.found or student in self.unclear
 
     def search(self, student: str, known: Person | None, text: str) -> None:
-        """Search for the row of a student, by the known fields and by the name of the folder."""
+        """Search for the row of a student by the data `known` and by the folder name `text`."""
         match = self._people.find(known or Person(), text)
         if match.person:
             self.found[student] = match.person
@@ -174,7 +171,7 @@ class _Search:
                 del self.found[student]
 
     def unknown(self, students: Iterable[str]) -> tuple[str, ...]:
-        """Return the students without a row."""
+        """Return the students for whom the search found no row."""
         return tuple(each for each in students if not self.decided(each))
 
 
@@ -187,7 +184,7 @@ def origins_of(handed_in: Iterable[Submission | Grade]) -> dict[str, list[str]]:
 
 
 def _platform(origins: Origins, source: Path | None, nameless: str) -> dict[str, Person]:
-    """Return the data about each student in file names, folder names and metadata of a platform.
+    """Return the data about each student that a platform wrote into file names, folder names and metadata.
 
     `nameless` is the word that Moodle writes instead of a name if submissions are anonymous.
     """

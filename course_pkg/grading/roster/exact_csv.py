@@ -1,4 +1,4 @@
-"""A CSV file in which one cell can be changed without changing any other byte.
+"""A CSV file in which a cell can be changed without a change of any other byte.
 
 The csv module cannot be used, because it does not preserve quotes, line endings and the byte order mark. The
 format is RFC 4180, with any character as the separator.
@@ -25,14 +25,14 @@ class Record:
     line: int
 
     def value(self, place: int) -> str:
-        """Return the value of the cell with this index."""
+        """Return the value of the cell with the index `place`, without quotes."""
         written = self.cells[place]
         if len(written) >= 2 and written[0] == written[-1] == '"':
             return written[1:-1].replace('""', '"')
         return written
 
     def put(self, place: int, value: str, separator: str) -> None:
-        """Write a value into a cell.
+        """Write a value into the cell with the index `place`.
 
         The new cell is quoted if the old cell was quoted, or if the value needs quotes.
         """
@@ -70,5 +70,5 @@ def records(text: str, separator: str) -> Iterator[Record]:
 
 
 def text_of(found: list[Record], separator: str) -> str:
-    """Return the text of the records. Without changed cells, the result equals the original text."""
+    """Return the text of the records; without changed cells, it is the original text."""
     return "".join(separator.join(record.cells) + record.end for record in found)

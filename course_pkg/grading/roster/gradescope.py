@@ -1,4 +1,4 @@
-"""Reads the data about the students from the metadata of an export from Gradescope."""
+"""Reads the data about students from the metadata of a Gradescope export."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.grading.roster.people import Person
 
 
 def gradescope_people(source: Path) -> dict[str, Person]:
-    """Return the data about each student; the keys are the students' names in the grades.
+    """Return the data about each student; the keys are students' names, as in the grades.
 
     The result is empty if there are no metadata.
 
@@ -24,13 +24,13 @@ def gradescope_people(source: Path) -> dict[str, Person]:
             for entry in entries:
                 if entry.parts[-1:] == (METADATA,) and len(entry.parts) < 3:
                     found |= _people(entry.read())
-    except GradingError:  # Grading itself reports unreadable files.
+    except GradingError:  # Another function reports unreadable files.
         return found
     return found
 
 
 def _people(content: bytes) -> dict[str, Person]:
-    """Return the persons in the metadata, in the order of the names from `gradescope_submitters`."""
+    """Return the data about each student in the metadata file with this content."""
     records = gradescope_records(content)
     return {
         clean.identity(student): Person(

@@ -1,8 +1,8 @@
 """Finds a student's row in a list, from the data in a submission.
 
-For each known field (a number, an address or a name), the rows with the same value are found. A field is
-ignored if no row has the same value. A row belongs to the student only if it is the only row that matches all
-remaining fields.
+For each known field (a number, an email address or a name), the rows with the same value are found. A field
+is ignored if no row has the same value. If exactly one row matches all remaining fields, this row belongs to
+the student.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ class Match:
 
     person: Person | None = None
     problem: str = ""
-    # The line numbers of the possible rows, if several rows are possible.
+    # `possible` contains the line numbers of the possible rows if there are several.
     possible: frozenset[int] = frozenset()
 
 
 class People:
-    """The rows of a list; each field can be used to find a row."""
+    """The rows of a list; a row can be found by each of its fields."""
 
     def __init__(self, people: Iterable[Person], title: str) -> None:
         self._people = tuple(people)
@@ -39,7 +39,7 @@ class People:
     def find(self, known: Person, text: str = "") -> Match:
         """Return the row that belongs to the person `known`.
 
-        `text` is the name of a folder; an instructor may have used any field of the student as this name.
+        `text` is a folder name that an instructor chose; it can be the value of any field of the student.
         """
         proposals = [rows for rows in self._proposals(known, text) if rows]
         if not proposals:
@@ -88,7 +88,7 @@ def _keys(person: Person) -> Iterator[tuple[str, str]]:
 
 
 def orders(name: str) -> set[str]:
-    """Return the letters of a name in each order of first and last names that a platform can use.
+    """Return the words of a name, joined in each order that a platform can use.
 
     For Jane Maria Doe, Canvas writes "doejanemaria", and a spreadsheet can contain "Doe, Jane Maria".
     """
@@ -97,14 +97,14 @@ def orders(name: str) -> set[str]:
 
 
 def _agree(one: str, other: str) -> bool:
-    """Return whether two names can belong to one student.
+    """Return whether the names `one` and `other` can belong to one student.
 
-    Moodle may write the name of a group before a student's name, so `one` only has to end with `other`.
+    Text before the student's name in `one` is allowed, because Moodle can write the name of a group there.
     """
     return not one or not other or any(folded(one).endswith(order) for order in orders(other))
 
 
 def folded(name: str) -> str:
-    """Return the letters and digits of a name, in lower case without accents."""
+    """Return the letters and digits of a name, in lower case and without accents."""
     letters = unicodedata.normalize("NFKD", name.casefold())
     return "".join(letter for letter in letters if letter.isalnum())

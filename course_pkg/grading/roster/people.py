@@ -33,7 +33,7 @@ ALIASES = {
     "username": ("username", "user name", "login", "login id", "sis login id"),
     "section": ("section", "sections"),
 }
-# Canvas adds these two rows to each exported gradebook.
+# Canvas adds the two rows in NO_STUDENTS to each exported gradebook.
 NO_STUDENTS = ("Points Possible", "Student, Test")
 
 
@@ -53,12 +53,12 @@ class Person:
 
     @property
     def label(self) -> str:
-        """The known field that is easiest for a person to read."""
+        """A name for the person: the field `name`, or else another known field."""
         known = (self.name, self.username, self.email, self.id, self.number)
         return next(filter(None, known), f"line {self.line}")
 
     def completed(self, other: Person) -> Person:
-        """Return this person; empty fields get the values of `other`."""
+        """Return a copy of this person; its empty fields have the values of `other`."""
         gaps = {key: getattr(other, key) for key in (*FIELDS, "number") if not getattr(self, key)}
         return replace(self, **gaps)
 
@@ -146,7 +146,7 @@ def _text(value: str) -> str:
 
 
 def labels(people: Sequence[Person]) -> Iterator[str]:
-    """Yield a label for each person; if two persons have the same label, the line number is added."""
+    """Yield a label for each person; if several persons have the same label, add the line number."""
     known = Counter(person.label for person in people)
     for person in people:
         yield f"{person.label} (line {person.line})" if known[person.label] > 1 else person.label

@@ -1,17 +1,18 @@
 """Reads Moodle's offline grading worksheet, and writes a copy with new grades and feedback comments.
 
 An instructor switches on the feedback type "Offline grading worksheet" of an assignment, and downloads the
-worksheet ("Download grading worksheet"). Later, the instructor uploads the completed copy ("Upload grading
-worksheet").
+worksheet ("Download grading worksheet"). Later, the instructor uploads the copy with the grades ("Upload
+grading worksheet").
 
-The layout is from Moodle's source. mod/assign/gradingtable.php writes the columns Identifier ("Participant
-12345"), Full name, further fields such as Email address or ID number, Status, Group, Marker, Grade, Maximum
-grade (or Scale), Marking workflow state, Grade can be changed, Last modified (submission), Online text, Last
-modified (grade), Feedback comments. Most of these columns are optional; if submissions are anonymous, the
-name is missing. The names of the columns and the word "Participant" are in the user's language.
-mod/assign/feedback/offline/importgradeslib.php finds the columns by exactly these names, takes the number
-from the end of the identifier, and refuses a file without one of its columns. locallib.php in the same folder
-ignores a grade that is empty, above the maximum, or locked.
+The layout of the worksheet is from the source code of Moodle. The file mod/assign/gradingtable.php writes the
+columns Identifier ("Participant 12345"), Full name, further fields such as Email address or ID number,
+Status, Group, Marker, Grade, Maximum grade (or Scale), Marking workflow state, Grade can be changed, Last
+modified (submission), Online text, Last modified (grade), Feedback comments. Most of these columns are
+optional; if submissions are anonymous, the name is missing. The names of the columns and the word
+"Participant" are in the user's language. The file mod/assign/feedback/offline/importgradeslib.php finds the
+columns by exactly these names, takes the number from the end of the identifier, and refuses a file if a
+required column is missing. The file locallib.php in the same folder ignores a grade that is empty, above the
+maximum, or locked.
 """
 
 from __future__ import annotations
@@ -31,13 +32,13 @@ from course_pkg.grading.roster.people import Person
 from course_pkg.grading.tables import delimiter_of, table_bytes
 
 WHAT = "grading worksheet"
-# LARGEST is the maximum number of bytes; the column "Online text" contains whole submissions.
+# LARGEST is the maximum number of bytes of a worksheet; its column "Online text" can contain long texts.
 LARGEST = 50_000_000
 IDENTIFIER, GRADE, MAXIMUM, SCALE = "Identifier", "Grade", "Maximum grade", "Scale"
 OPEN, FEEDBACK = "Grade can be changed", "Feedback comments"
 NAME, EMAIL, USERNAME, ID = "Full name", "Email address", "Username", "ID number"
-# The names of the columns in small letters: English, German, French and Spanish, from Moodle's language packs
-# (lang/*/assign.php, moodle.php and assignfeedback_comments.php).
+# NAMES contains the names of the worksheet's columns in English, German, French and Spanish, in lower case.
+# The names are from Moodle's language packs (lang/*/assign.php, moodle.php and assignfeedback_comments.php).
 NAMES = {
     IDENTIFIER: ("identifier", "id", "identifiant", "identificador"),
     GRADE: ("grade", "bewertung", "note", "calificación"),
@@ -87,7 +88,7 @@ class Participant:
 
 
 class Worksheet:
-    """The content of a worksheet; `copy` does not change this object."""
+    """The content of a worksheet; the method `copy` returns a changed copy of the file."""
 
     def __init__(
         self, found: Sequence[Record], separator: str, columns: Mapping[str, int], file: str
@@ -103,9 +104,10 @@ class Worksheet:
 
     @property
     def word(self) -> str:
-        """The word before the number of a participant, in lower case.
+        """The word before the number in the column Identifier, such as "participant", in lower case.
 
-        If submissions are anonymous, Moodle uses this word instead of a student's name in the names of files.
+        If submissions are anonymous, the names of submitted files contain the word "Participant", in the
+        user's language, in place of a student's name.
         """
         first = self._records[1:2]
         return folded(re.sub(r"\d+\s*\Z", "", self._value(first[0], IDENTIFIER))) if first else ""
@@ -114,25 +116,25 @@ class Worksheet:
     def takes_feedback(self) -> bool:
         """Whether the worksheet has a column for feedback.
 
-        Moodle adds this column if the feedback type "Feedback comments" is on.
+        Moodle adds a column for feedback if the feedback type "Feedback comments" is on.
         """
         return FEEDBACK in self._columns
 
     @property
     def about_points(self) -> str:
-        """A clause for the end of a sentence: whether the points are scaled to the maximum grade."""
+        """Words for the end of a sentence that say whether the points are scaled to the maximum grade."""
         if MAXIMUM not in self._columns:
             return "; it contains no maximum grade, so the points are not scaled"
         maxima = sorted({f"{each.maximum:g}" for each in self.participants if each.maximum})
         return f"; the points are scaled to Moodle's maximum grade of {' or '.join(maxima)}" if maxima else ""
 
     def copy(self, graded: Mapping[int, tuple[str, str]]) -> bytes:
-        """Return a copy of the file with new grades and feedback (HTML).
+        """Return the content of the file with the grades and the feedback (HTML) from `graded`.
 
         The keys of `graded` are the indices of the participants' rows.
 
-        All other bytes of the file do not change. A grade is a number such as "7.5". The grade gets a decimal
-        comma if the maximum grade in its row has a decimal comma.
+        Only the cells with grades and feedback change. A grade is a number such as "7.5". The grade gets a
+        decimal comma if the maximum grade in the same row has a decimal comma.
         """
         changed = deepcopy(self._records)
         for place, (grade, feedback) in graded.items():
@@ -195,7 +197,7 @@ def read_worksheet(path: Path) -> Worksheet:
             f"The {WHAT} {path.name} is not in UTF-8, but Moodle writes this file in UTF-8. {AGAIN}"
         ) from error
     separator = delimiter_of(text)
-    # The name of the first column still begins with the byte order mark.
+    # The name of the first column begins with the byte order mark, which is removed below.
     found = list(records(text, separator))
     head = [clean.line(found[0].value(place)) for place in range(len(found[0].cells))] if found else []
     if found and text.startswith("\ufeff"):

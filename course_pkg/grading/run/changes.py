@@ -33,7 +33,7 @@ class Change:
 def changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[Change]:
     """Return the points that have changed between two runs, sorted by student and part.
 
-    A grade that exists in only one run is ignored.
+    If a grade exists in only one of the two compared runs, the grade is ignored.
     """
     known = {(grade.student, grade.chapter): grade for grade in before if grade.chapter}
     found = []
@@ -82,7 +82,7 @@ def write_changes(found: Sequence[Change], out: Path) -> None:
 
 
 def described(found: Sequence[Change], out: Path) -> list[str]:
-    """Return the lines that a run prints about the changes `found`."""
+    """Return the lines for the terminal about the changes `found`."""
     if not found:
         return ["No points have changed since the last run."]
     lines = ["Points that have changed since the last run:", *(f"  {each}" for each in found[:SHOWN])]

@@ -1,4 +1,4 @@
-"""The dask cluster of `course grade --scheduler`: waits for workers, and detects when all have ended."""
+"""The dask cluster of `course grade --scheduler`: waits for workers, and detects the loss of all workers."""
 
 from __future__ import annotations
 
@@ -16,15 +16,13 @@ if TYPE_CHECKING:
     from distributed import Client
 
 PATIENCE = 20.0  # A scheduler must respond, and a worker must connect, within this many s.
-INTERVAL = 1.0  # INTERVAL is the time in s between two polls of the workers, after all tasks were submitted.
+# INTERVAL is the time in s after which the run tests again whether the cluster still has workers.
+INTERVAL = 1.0
 AGAIN = "The finished grades are saved. Correct the problem above, and type the same command again."
 
 
 class Cluster:
-    """An executor that uses a dask cluster, and the number of threads in the cluster.
-
-    `require` raises GradingError if the scheduler has ended, or if no worker was connected for `patience` s.
-    """
+    """An executor that uses a dask cluster, and the number of threads in the cluster."""
 
     def __init__(self, client: Client, executor: Executor, scheduler: str, patience: float) -> None:
         self._client, self._scheduler, self._patience = client, scheduler, patience
@@ -33,7 +31,7 @@ class Cluster:
         self.workers = max(1, sum(client.ncores().values()))
 
     def require(self) -> None:
-        """Raise GradingError if no worker can continue the run."""
+        """Raise GradingError if the scheduler has ended, or if no worker was connected for `patience` s."""
         if self._client.status != "running":
             raise self._lost()
         if self._client.scheduler_info(n_workers=-1)["workers"]:
@@ -43,16 +41,13 @@ class Cluster:
 
     @property
     def failures(self) -> tuple[type[BaseException], ...]:
-        """The exceptions that dask raises if the cluster cannot run a task.
-
-        `explained` returns an error message for such an exception.
-        """
+        """The types of exceptions that dask raises if the cluster cannot run a task."""
         from distributed.scheduler import KilledWorker
 
         return CancelledError, KilledWorker, ImportError, RuntimeError
 
     def explained(self, error: BaseException) -> GradingError:
-        """Return an error that explains one of the `failures` and says what the user can do."""
+        """Return an error that explains dask's exception `error`, and says what the user can do."""
         if isinstance(error, CancelledError):
             return self._lost()
         if isinstance(error, (ImportError, RuntimeError)):
@@ -116,7 +111,7 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
             raise no_workers(scheduler, patience) from error
         yield Cluster(client, client.get_executor(pure=False), scheduler, patience)
     finally:
-        # Without this timeout, close() would wait for a scheduler that has ended.
+        # Without the timeout of 1 s, close() would wait for a scheduler that has ended.
         with suppress(OSError, TimeoutError):
             client.close(timeout=1)
 

@@ -17,7 +17,7 @@ from course_pkg.grading.run.selection import Selection
 class Earlier:
     """The records of earlier runs in the folder `out`.
 
-    `unreadable` is the number of files in the folder that are not records.
+    `unreadable` is the number of files in `out` that this version of the course cannot read.
     """
 
     out: Path
@@ -27,19 +27,19 @@ class Earlier:
     def find(self, student: str, chapter: str) -> Grade | None:
         """Return a student's earlier grade for a chapter, or None.
 
-        The grade has the points of the checks, without an instructor's changes.
+        The grade contains the points of the checks, not an instructor's points.
         """
         found = self._by_chapter.get((student, chapter)) if chapter else None
         return found.unreviewed() if found else None
 
     def rest(self, graded: Sequence[Grade], selected: Selection) -> list[Grade]:
-        """Return the earlier grades that stay in the reports in addition to `graded`.
+        """Return the earlier grades that the reports contain in addition to the new grades `graded`.
 
-        The earlier grades have the points of the checks.
+        The returned grades contain the points of the checks, not an instructor's points.
 
-        An earlier grade is marked as absent if this run selects the student and the chapter, but has no
-        submission. There is one exception: if a run without a selection contains no submission for a chapter,
-        the chapter probably belongs to another assignment, and its grades are not marked.
+        An earlier grade is marked as absent if this run selects the student and the chapter, but the student
+        has no submission. However, if a run without a selection has no submission for a chapter, the
+        chapter's grades are not marked, because the chapter probably belongs to another assignment.
         """
         chapters = {grade.chapter for grade in graded}
         now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}
@@ -57,7 +57,7 @@ class Earlier:
     def forget_files(self, graded: Sequence[Grade], selected: Selection) -> None:
         """Remove the records of files that could not be graded in an earlier run.
 
-        Only records of files that no longer exist are removed.
+        A record is removed only if the student's file no longer exists.
         """
         now = {(grade.student, grade.origin) for grade in graded if not grade.chapter}
         for grade in self.grades:
@@ -71,7 +71,7 @@ class Earlier:
 
 
 def read_earlier(out: Path) -> Earlier:
-    """Return the records in `out`, and the number of files that are not records of this version."""
+    """Return the records in `out`, and the number of files that this version of the course cannot read."""
     grades, unreadable = [], 0
     for path in sorted((out / RESULTS).glob("*/*.json")):
         if path.name.startswith("."):

@@ -1,4 +1,4 @@
-"""Tests an instructor's private folder (--private) for misnamed, empty and unused files."""
+"""Finds misnamed, empty and unused files in an instructor's private folder (--private)."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def require_names(folder: Path, chapters: Sequence[str]) -> None:
 
 
 def require_parts(folder: Path) -> None:
-    """Raise GradingError if a private module declares no part, or if a part belongs to no exercise."""
+    """Raise GradingError if a private module contains no part, or a part that belongs to no exercise."""
     for chapter, name in _modules(folder):
         declared = parts_of(chapter)
         public = {part.check for part in declared if part.check == exercise_of(part.check)}

@@ -13,11 +13,11 @@ from course_pkg.grading.store import Store
 
 @dataclass(frozen=True)
 class Regrade:
-    """The selection of a run, and the earlier results that are combined with the new results."""
+    """The selection of a run, and the earlier results with which the new results are combined."""
 
     selected: Selection
     earlier: Earlier
-    fresh: bool = False  # With --fresh, the selected notebooks are graded again, even if nothing has changed.
+    fresh: bool = False
 
     @property
     def again(self) -> bool:
@@ -25,7 +25,7 @@ class Regrade:
         return self.fresh or self.selected.again
 
     def parts(self, submission: Submission) -> tuple[str, ...]:
-        """Return the parts of a notebook that are graded again, or () for the whole notebook.
+        """Return the parts of a notebook that are graded again, or () if the whole notebook is graded.
 
         The whole notebook is graded if there is no earlier result, or if the student has submitted another
         notebook since the last run.
@@ -34,16 +34,17 @@ class Regrade:
         return asked if asked and not submission.problem and self._base(submission) else ()
 
     def completed(self, grade: Grade, parts: tuple[str, ...]) -> Grade:
-        """Return the grade; if only `parts` were graded, add the earlier reports of all other parts."""
+        """Return the grade; if only `parts` were graded, add the earlier reports on all other parts."""
         base = self.earlier.find(grade.student, grade.chapter)
         return merged(base, grade) if parts and base else grade
 
     def keep(self, store: Store, graded: Grade, parts: tuple[str, ...], alike: Sequence[Submission]) -> None:
         """Store a new grade for later runs; at this time, the grade contains no student's name.
 
-        The submissions in `alike` get this grade. If only `parts` were graded, their reports replace the
-        reports in the stored grade. A stored grade that was computed with other options or another version of
-        the checks is removed. If it were kept, a later run of the whole notebook could use its old points.
+        All submissions in `alike` get the grade `graded`. If only `parts` were graded, the new reports on
+        these parts replace the reports in the stored grade. A stored grade that was computed with other
+        options or another version of the checks is removed. If such a grade stayed, a later run of the whole
+        notebook could use its points.
         """
         if not parts:
             store.keep(graded)

@@ -1,6 +1,6 @@
-"""The selection of a run: students, parts, chapters, or all of them.
+"""The selection of a run: which students, chapters and parts are graded.
 
-All other results do not change.
+The results of students, chapters and parts that are not selected do not change.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 from course_pkg.grading.grade import IN_PACKAGES, Grade, Submission
 
-# Moodle and Canvas add a number of this form to the end of a student's name.
+# PLATFORM_ID matches the number that Moodle and Canvas add to the end of a student's name.
 PLATFORM_ID = re.compile(r"_\d+$")
 
 
 @dataclass(frozen=True)
 class Selection:
-    """The options --student, --part and --chapters; an empty tuple means that everything is selected."""
+    """The options --student, --part and --chapters; an empty tuple means all students, parts or chapters."""
 
     students: tuple[str, ...] = ()
     chapters: tuple[str, ...] = ()
@@ -37,7 +37,7 @@ class Selection:
         return not (self.students or self.chapters or self.parts)
 
     def covers(self, student: str, chapter: str) -> bool:
-        """Return whether this run grades a student's submission for a chapter; "" is an unknown chapter."""
+        """Return whether this run grades a student's submission for a chapter; an unknown chapter is ""."""
         if self.students and student not in self.students:
             return False
         return not self.chapters or chapter in ("", *self.chapters)
@@ -81,13 +81,13 @@ def selection(students: Sequence[str], chapters: Sequence[str], parts: Sequence[
 
 
 def two_digits(number: str) -> str:
-    """Return the number of a chapter or part with two digits for the chapter, such as "05" for "5"."""
+    """Return the id of a chapter or part with two digits for the chapter, such as "05.1" for "5.1"."""
     chapter, dot, rest = number.strip().partition(".")
     return f"{chapter.zfill(2)}{dot}{rest}"
 
 
 def merged(base: Grade, again: Grade) -> Grade:
-    """Return `base` with the reports of `again`; `again` contains only the newly graded parts."""
+    """Return `base` with the new reports from `again`; `again` contains only the selected parts."""
     fresh = {report.check: report for report in again.reports}
     reports = [fresh.pop(report.check, report) for report in base.reports]
     reports = sorted([*reports, *fresh.values()], key=lambda report: list(map(int, report.check.split("."))))
@@ -106,9 +106,9 @@ def merged(base: Grade, again: Grade) -> Grade:
 
 
 def _student(name: str, known: Sequence[str]) -> str:
-    """Return the student with this name.
+    """Return the full name of the student that `name` means.
 
-    `name` may be without the number that a platform adds.
+    In `name`, the number that a platform adds to a name can be missing.
     """
     identity = clean.identity(name)
     if identity in known:

@@ -13,12 +13,12 @@ SHOWN = 10  # SHOWN is the maximum number of names in a line.
 
 
 def status_of(graded: Sequence[Grade]) -> int:
-    """Return the exit status: GRADED, or NEED_A_LOOK if an instructor has to examine a submission."""
+    """Return the exit status GRADED, or NEED_A_LOOK if an instructor has to examine a submission."""
     return NEED_A_LOOK if any(map(needs_look, graded)) else GRADED
 
 
 def last_line(graded: Sequence[Grade]) -> str:
-    """Return the last line, for example "45 graded, 22 need a look"."""
+    """Return the last line that a run prints, for example "45 graded, 22 need a look"."""
     looks = sum(map(needs_look, graded))
     return f"{len(graded) - looks} graded, {looks} {'needs' if looks == 1 else 'need'} a look"
 

@@ -1,9 +1,9 @@
 """Measures how well the flags find copies in a class of 300 students.
 
-Arguments: `[SEED …]`. The benchmark writes a class of chapter 05. Each of 280 students gets independently
-written answers in a random style. The 20 other students copy a student's answers, and disguise the copies:
-they change names, order and comments. Ten of these 20 students copy all four exercises, and the other ten
-copy only two exercises.
+Arguments: `[SEED …]`. The benchmark writes the submissions of a class for chapter 05. Each of 280 students
+gets independently written answers in a random style. The 20 other students copy a student's answers, and
+disguise the copies: they change names, order and comments. Ten of these 20 students copy all four exercises,
+and the other ten copy only two exercises.
 """
 
 from __future__ import annotations
@@ -112,7 +112,7 @@ def styled(source: str, style: list[Rule], draw: random.Random) -> str:
 
 
 def handed_in(number: int, answers: Answers) -> Submission:
-    """Return a submission: the students' notebook with these answers."""
+    """Return a submission: the notebook of chapter 05 with the answers of one student."""
     notebook = json.loads(json.dumps(derived(read(NotebookStore().solutions([CHAPTER])[0]))))
     for cell in code_cells(notebook):
         cell["source"] = answers.get(exercise_of(cell), cell["source"])

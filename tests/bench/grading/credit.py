@@ -6,8 +6,8 @@ PART is the beginning of a part's id, such as 05 or 05.3. The first right answer
 each wrong example answer has to earn fewer points. The benchmark also changes the first right answer into
 answers that do nothing. In such an answer, all functions return the same value or raise an exception, or the
 code has an error at its beginning. An answer that does nothing must earn no points. The exit status is the
-number of answers that earn a wrong number of points. If `few` is given, only two wrong answers of each part
-run. The benchmark omits parts without goals, because these parts have no partial credit.
+number of answers that earn a wrong number of points. If the argument `few` is given, only two wrong answers
+of each part run. The benchmark omits parts without goals, because these parts have no partial credit.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ UNABLE = {"is not Python": "this is not Python\n", "raises at its start": "raise
 
 
 def credit_main() -> int:
-    """Run the answers and print the answers with points. Return the number of answers with wrong points."""
+    """Print the answers that get partial or wrong points; return the number with wrong points."""
     words = sys.argv[1:]
     few = "few" in words
     asked = tuple(word for word in words if word != "few") or ("",)
@@ -73,7 +73,7 @@ def credit_main() -> int:
 
 
 def _doing_nothing(right: Answer) -> Iterator[Answer]:
-    """Yield answers that define the same names as `right`, but do nothing."""
+    """Yield answers that define the same names as the answer `right`, but do nothing."""
     magic = right.source.startswith("%%")
     first, _, text = right.source.partition("\n") if magic else ("", "", right.source)
     head = f"{first}\n" if magic else ""

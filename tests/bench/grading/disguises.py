@@ -41,7 +41,7 @@ Rule = Callable[[ast.Module, random.Random], None]
 
 
 def in_style(source: str, style: Sequence[Rule], draw: random.Random) -> str:
-    """Return a program with the same behaviour that follows the rules of a style."""
+    """Rewrite a program by the rules of a style; the behaviour of the program does not change."""
     magic, module = _parsed(source)
     for rule in style:
         rule(module, draw)
@@ -49,12 +49,12 @@ def in_style(source: str, style: Sequence[Rule], draw: random.Random) -> str:
 
 
 def a_style(draw: random.Random) -> list[Rule]:
-    """Return some of the rules, in random order."""
+    """Return a random selection of the style rules, in random order."""
     return draw.sample(RULES, draw.randint(4, 7))
 
 
 def disguised(source: str, keep: set[str], draw: random.Random) -> str:
-    """Return a copy with changed names, order and comments. The names in `keep` do not change."""
+    """Return a copy of a program with other names, order and comments. The names in `keep` stay the same."""
     magic, module = _parsed(source)
     _without_docstrings(module)
     _renamed(module, keep, draw)
@@ -234,7 +234,7 @@ def name_results(module: ast.Module, draw: random.Random) -> None:
 
 
 def log_calls(module: ast.Module, draw: random.Random) -> None:
-    """Add a log message at the beginning of functions."""
+    """Add a log message at the beginning of some functions."""
     level = draw.choice(["loginfo", "logdebug", "logwarn", "loginfo_once"])
     for function in _functions(module):
         if draw.random() < 0.7:
@@ -357,7 +357,7 @@ def protect(module: ast.Module, draw: random.Random) -> None:
 
 
 def annotate_steps(module: ast.Module, draw: random.Random) -> None:
-    """Assign the fields of the request to variables at the beginning."""
+    """Assign the fields of the request to variables at the beginning of each handler."""
     for function in _functions(module):
         fields = sorted(
             {node.attr for node in ast.walk(function) if isinstance(node, ast.Attribute)

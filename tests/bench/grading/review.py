@@ -26,7 +26,7 @@ async (key) => {
 
 
 def review_main() -> None:
-    """Press one key after another. Print the median, the 95th percentile and the maximum duration."""
+    """Press keys one after another; print the median, the 95th percentile and the maximum time."""
     grades = [
         graded(f"s{number:03}", "\n".join(f"value_{line} = {number + line}" for line in range(LINES)))
         for number in range(STUDENTS)

@@ -29,9 +29,9 @@ from tests.grading.submitted import WRONG, hand_in
 # students (default 30) hand in the notebook of chapter 05. Every third student has one wrong answer. Three
 # commands grade the notebooks: `course grade` without nbval, `course grade --validate all`, and `nbgrader
 # autograde` with a notebook that has the same cells. The ratio of two commands is computed from their
-# durations per notebook. If `plain` is given, only the first command runs. If `many` is given, `course grade`
-# also grades 1,000 (or COUNT) submissions, and the benchmark measures the memory. nbgrader is installed into
-# a folder of the cache.
+# durations per notebook. If the argument `plain` is given, only the first command runs. If the argument
+# `many` is given, `course grade` also grades 1,000 (or COUNT) submissions, and the benchmark measures the
+# memory. nbgrader is installed into a folder of the cache.
 
 NBGRADER = "nbgrader==0.9.6"
 CHAPTER = "05"
@@ -97,7 +97,7 @@ def speed_grade(submissions: Path, out: Path, validate: str) -> None:
 def many(here: Path, few: float, count: int) -> None:
     """Grade `count` submissions.
 
-    Print the throughput and the memory.
+    Grade many submissions, and print the throughput and the memory usage.
     """
     handed_in(here / "many", count)
     with watched() as seen:
@@ -138,7 +138,7 @@ def _resident(pid: int) -> int:
 
 
 def nbgrader(here: Path, count: int) -> float:
-    """Return the duration in s that nbgrader needs for each of `count` notebooks with the same cells."""
+    """Grade `count` copies of a notebook with nbgrader, and return the duration in s for each copy."""
     python = nbgrader_python()
     course = here / "nbgrader"
     assignment = course / "source" / "ps" / "notebook.ipynb"
@@ -200,16 +200,16 @@ def nbgrader_python() -> Path:
 
 # kill: kills the grader by SIGKILL at random moments. Arguments: `[TIMES]`. Six submissions are graded once
 # without a kill. Then the benchmark does the following TIMES times (default 20): it kills a run after a
-# random time, and continues the run. After each run, the grades must be the same as without a kill, and no
-# process may remain.
+# random time, and continues the run. After each run, the grades must be the same as without a kill, and all
+# processes must have ended.
 
 COURSE = Places.of().checkout / "course"
 
 
 def kill_main() -> None:
-    """Kill runs and continue them.
+    """Repeatedly kill a run of the grading, and continue this run.
 
-    Print how often the grades were the same as without a kill, and no process remained.
+    Print in how many runs the grades were the same as without a kill and no process remained.
     """
     times = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
@@ -275,7 +275,7 @@ def grade_without_nbval(submissions: Path, out: Path) -> None:
 
 
 # reference: grades the solutions. Arguments: `[RUNS]`. Each chapter's solution is graded RUNS times (default
-# 20), and several submissions are graded at the same time. Each part must pass each time.
+# 20), and several submissions are graded at the same time. In each run, each part must pass.
 
 
 def reference_main() -> None:
@@ -288,7 +288,8 @@ def reference_main() -> None:
             for path in NotebookStore().solutions():
                 target = hand_in(here / "in", f"s{number:02}", path.name[:2])
                 notebook = json.loads(target.read_text("utf-8"))
-                # `course grade` grades identical notebooks only once, so each notebook gets a different text.
+                # `course grade` grades identical notebooks only once, so the benchmark adds a different text
+                # to each notebook.
                 notebook["cells"][0]["source"] += f"\n{number}"
                 target.write_text(json.dumps(notebook), "utf-8")
         grade_without_nbval(here / "in", here / "out")

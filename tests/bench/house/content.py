@@ -1,4 +1,4 @@
-"""Counts objects, names, parts, lines of errors and words in the chapters."""
+"""Counts created objects, imported names, graded parts, lines of errors, and words in the chapters."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def all_main() -> bool:
 
 
 def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
-    """Yield each cell of this kind, with the notebook's path and the cell's number."""
+    """Yield each cell of the type `kind`, with the path of the notebook and the number of the cell."""
     for path in sorted((ROOT / "solutions").glob("[0-9][0-9]_*.ipynb")):
         for number, cell in enumerate(nbformat.read(path, as_version=4).cells):
             if cell.cell_type == kind:

@@ -3,8 +3,8 @@
 Arguments: `PREFIX [RUNS]`. PREFIX is the folder of an installation by `./course install --prefix PREFIX`.
 Each run starts as a new user, with an empty home folder and an empty browser cache. For the first start and
 for the second start, the program prints the time from the command to a page with a rendered notebook and an
-idle kernel. It also prints the size of the user's files. If root starts the program, the new user is the
-account `nobody`.
+idle kernel. The program also prints the size of the user's files. If root starts the program, the new user is
+the account `nobody`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from playwright.sync_api import sync_playwright
 
 from tests.bench.lab.start import FLAGS, STEPS, started, times_of_start
 
-RATIO, SIZE = 1.3, 5.0  # maximum ratio of the first start to the second one, and maximum size in MB
+RATIO, SIZE = 1.3, 5.0  # maximum ratio of the durations (first start / second start), and maximum size in MB
 NOBODY = 65534
 DROP = ("setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups")
 

@@ -118,7 +118,7 @@ def _print(works: Sequence[Work], hub: float, working: float, idle: float, proce
 
 
 def students_main() -> None:
-    """Run the measurement of the command line."""
+    """Run the measurement with the arguments of the command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("count", type=int)
     parser.add_argument("--pause", type=float, default=10.0, help="s between two cells")

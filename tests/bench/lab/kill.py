@@ -43,9 +43,9 @@ def kill(times: int = 25) -> bool:
 def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
     """Kill the process whose command line contains `pattern`, and then stop the command.
 
-    An empty `pattern` kills the command itself. The files of the command are in `folder`. The function waits
-    up to TIMEOUT until nothing is left. Return the waiting time in s, and the number of remaining processes,
-    sockets, mounts and files.
+    If `pattern` is empty, the function kills the command itself. The files of the command are in `folder`.
+    The function waits up to TIMEOUT until nothing is left. Return the waiting time in s, and the number of
+    remaining processes, sockets, mounts and files.
     """
     port, before = free_port(), files_in(folder)
     variables = {"TMPDIR": folder, "XDG_STATE_HOME": f"{folder}/state"}
@@ -54,8 +54,8 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
         assert urlsplit(address).port == port
         family = eventually(partial(complete_family, process), timeout=60)
         if pattern:
-            # The supervisor has the same command line as its child process and comes first, so take the last
-            # process.
+            # The list contains the supervisor before its child process, and both have the same command line,
+            # so take the last process.
             os.kill(having(pattern, family)[-1], signal.SIGKILL)
             family += below(process)
             process.send_signal(signal.SIGINT)
@@ -80,7 +80,7 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
 def files_in(folder: str) -> set[str]:
     """Return all files, sockets and folders in a folder.
 
-    Another process may remove some of the files during the search.
+    If another process removes files during the search, the function raises no error.
     """
     return {os.path.join(root, name) for root, folders, files in os.walk(folder) for name in folders + files}
 
@@ -88,8 +88,8 @@ def files_in(folder: str) -> set[str]:
 def started_with(folder: str) -> list[int]:
     """Return all processes of this computer with TMPDIR=`folder`.
 
-    Linux deletes a private network when no process uses it. If the list is empty, the private network of the
-    command therefore does not exist.
+    Linux deletes a private network when no process uses it. Therefore, an empty list means that the private
+    network of the command does not exist.
     """
     found = []
     for process in Path("/proc").glob("[0-9]*"):

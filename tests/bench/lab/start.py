@@ -107,7 +107,7 @@ def times_of_start(context: BrowserContext, server: Server, notebook: Path, stat
 
 
 def until_usable(page: Page) -> list[float]:
-    """Wait for the notebook and for its kernel, and return the times at which they were ready."""
+    """Wait until the notebook and its kernel are ready, and return the time of each."""
     page.wait_for_selector(f"{SHOWN} .jp-RenderedMarkdown h1")
     rendered = time.perf_counter()
     page.wait_for_function(IDLE)

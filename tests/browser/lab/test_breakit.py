@@ -24,7 +24,7 @@ LABEL = "Break it"
 
 
 def number(name: str) -> int:
-    """Return the number of the case with the fault `name`."""
+    """Each case of the panel has one fault; return the number of the case with the fault `name`."""
     return next(case.number for case in cases() if case.fault.name == name)
 
 
@@ -129,7 +129,7 @@ def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) ->
     ):
         shown = page.locator(".jp-OutputArea-output", has_text="http://localhost").first.inner_text()
         master = MasterClient(shown.strip().strip("'"))
-        # If a fault of another panel is active, the list includes the nodes of this fault.
+        # If another panel has caused a fault, `before` contains the nodes of this fault.
         before = master.system_state().nodes
         begin(panel(page, LABEL), "stale")
         assert master.system_state().nodes != before
@@ -141,7 +141,7 @@ def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) ->
 def test_a_saved_lab_shows_the_last_case(
     page: Page, tmp_path: Path, master: PrivateMaster, theme: str
 ) -> None:
-    """A saved page shows the last case, and all buttons are disabled."""
+    """A saved page shows the last case that the student opened, and all buttons are disabled."""
     assert master.uri
     widget = BreakIt("stopped", "returns_none", store=CaseStore(tmp_path / "cases.json"))
     widget._model.open(number("returns_none"))

@@ -97,7 +97,7 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
 
 
 def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
-    """When each case has an answer, the panel shows the reasons, and later choices are not counted."""
+    """After a choice for each case, the panel shows the reasons, and ignores later choices."""
     with running_notebook(lab_page, lab, "choose", CHOICES, CHOOSE, 'predictions("03")', PLOT):
         choices = panel(lab_page, "Choices")
         first = choices.get_by_role("radiogroup", name="Joint values")
@@ -124,7 +124,8 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
         expect(panel(lab_page, "Predictions").get_by_text("1 of 2 fit", exact=True)).to_be_visible()
         choices = panel(lab_page, "Choices")
         choices.get_by_role("button", name="Choose again").click()
-        # Until the kernel answers, the old choices are still selected, and check() would have no effect.
+        # Wait until the kernel has cleared the old choices: check() does nothing if an option is still
+        # selected.
         expect(choices.get_by_text("2 of 2 cases have no answer.")).to_be_visible()
         for name, option in {"Joint values": "a topic", "One picture": "a service"}.items():
             choices.get_by_role("radiogroup", name=name).get_by_label(option).check()

@@ -113,7 +113,7 @@ def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
 
 
 def test_an_error_does_not_move_the_button_during_a_press(form: Locator) -> None:
-    """An error message does not move the Call button while the student presses it."""
+    """If an error message appears while the student presses the Call button, the button does not move."""
     fill(form, length="1.2", width="five")
     expect(form.get_by_text("of the last request without a mistake")).to_be_visible()
     form.get_by_role("button", name="Call").click(delay=100)
@@ -256,7 +256,7 @@ def test_a_reader_runs_chapter_05_and_calls_the_server_from_the_form(page: Page)
 
 
 def _write_nothing(route: Route) -> None:
-    """Do not let the page write to the checkout's solution."""
+    """Prevent the page from writing to the solution in the checkout."""
     if route.request.method == "PUT":
         route.abort()
     else:

@@ -22,14 +22,14 @@ PANEL = 'TopicPanel("/speed", "std_msgs/Float64")'
 
 
 def listening(page: Page) -> Locator:
-    """Return the panel after it has subscribed."""
+    """Wait until the panel has subscribed to its topic, and return the panel."""
     found = panel(page, "Topic panel")
     expect(found.locator(".ros-who")).to_contain_text("this panel")
     return found
 
 
 def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Page) -> None:
-    """A message that is published before a subscriber connects is lost. The next message arrives."""
+    """A message that is published before a subscriber connects is lost, and the next message arrives."""
     with running_notebook(lab_page, lab, "first", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("data").fill("1.5")
@@ -124,7 +124,7 @@ def test_errors_are_shown_at_their_fields(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_different_type_is_reported(lab: Lab, lab_page: Page) -> None:
-    """The panel names the publisher and the subscriber that use another message type."""
+    """The panel shows each publisher and each subscriber whose message type differs from the panel's type."""
     others = """
         talker = rospy.Publisher("/speed", String, queue_size=1, latch=True)
         talker.publish("fast")

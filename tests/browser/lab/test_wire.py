@@ -26,7 +26,7 @@ def show(page: Page, folder: Path, view: WireView, theme: str = "light") -> Loca
 
 
 def pieces(wire: Locator, name: str) -> Locator:
-    """Return the row of the field `name`."""
+    """Return the table row of the field `name`."""
     return wire.locator(".ros-sides tbody tr").filter(
         has=wire.page.locator("td:nth-child(3)", has_text=re.compile(f"^{name}$"))
     )
@@ -73,7 +73,7 @@ def test_the_keyboard_reaches_every_step_and_piece(page: Page, tmp_path: Path) -
 
 
 def test_the_whole_exchange_is_a_table(page: Page, tmp_path: Path) -> None:
-    """The view also shows all steps as a table."""
+    """A table in the view lists all steps of the call."""
     wire = show(page, tmp_path, WireView("/getGeometry", **SIDES))
     wire.get_by_text("The whole exchange as a table").click()
     table = wire.get_by_label("The whole exchange")
@@ -98,7 +98,7 @@ def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
 
 
 def test_what_is_long_is_folded(page: Page, tmp_path: Path) -> None:
-    """A long field is shown with its beginning and its length."""
+    """For a long field, the view shows only the beginning of the value and its length."""
     wire = show(page, tmp_path, WireView("/nobody"))
     expect(wire.locator("[aria-current]")).to_contain_text("No node provides it")
     expect(wire.get_by_text("unavailable")).to_be_visible()

@@ -50,13 +50,13 @@ def hints_of(chapter: str) -> list[Hint]:
 
 
 def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
-    """Return the hints for which no header of an answer contains a part of the hint."""
+    """Return each hint of which no part occurs in the header of an example answer."""
     shown = set().union(*(shown_by(text, hints) for answer in answers for text in answer.quotes))
     return [hint for hint in hints if hint.pieces not in shown]
 
 
 def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
-    """Return the pieces of the only hint that contains `text`.
+    """Return the constant strings (`pieces`) of the only hint that contains `text`.
 
     If several hints contain `text`, return the hint that is equal to `text`. If there is no such hint, return
     an empty set.

@@ -48,8 +48,11 @@ def _job(case: Answer | Part) -> PartJob:
     """Return the job of an answer, or of a part whose exercise is blank."""
     answer = RIGHT[case.check] if isinstance(case, Part) else case
     source = handed_out(case.check, answer.source) if isinstance(case, Part) else answer.source
-    deadline = PARTS[case.check].deadline
-    return PartJob(case.check, answer.before, (source,), answer.after, secrets.randbits(32), deadline)
+    part = PARTS[case.check]
+    seed = secrets.randbits(32)
+    return PartJob(
+        case.check, answer.before, (source,), answer.after, seed, part.deadline, hidden=part.hidden
+    )
 
 
 @pytest.fixture(scope="session")

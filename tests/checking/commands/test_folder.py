@@ -33,5 +33,5 @@ def test_wait_for_a_graph_ends(master: PrivateMaster) -> None:
 
 
 def test_master_may_start_during_the_wait() -> None:
-    """The check also waits if roslaunch has not started the master yet."""
+    """If roslaunch has not started the master yet, the check waits for the master."""
     assert not becomes(f"http://localhost:{closed_port()}", lambda _: True, within=0.2)

@@ -16,7 +16,7 @@ from tests.support import eventually
 
 @pytest.fixture
 def bench(tmp_path: Path) -> Iterator[CommandFolders]:
-    """Return the command folders for the files in tmp_path."""
+    """Return an object that runs commands on copies of the files in tmp_path."""
     fresh = CommandFolders(lambda name: tmp_path / name)
     yield fresh
     fresh.close()

@@ -13,12 +13,12 @@ from course_pkg.checking.plain_values import Reply, Value
 
 
 def ask(namespace: dict[str, Value], folder: Path | None = None, **question: Value) -> Reply:
-    """Return the reply to a request."""
+    """Return the agent's reply to a request."""
     return KernelAgent(namespace, folder).reply({"ask": 1, **question})
 
 
 def call(namespace: dict[str, Value], *args: Value, within: float = 1.0) -> Reply:
-    """Return the reply to a request that calls the function `f`."""
+    """Return the agent's reply to a request that calls the function `f`."""
     return ask(namespace, do="call", name="f", args=list(args), kwargs={}, within=within)
 
 
@@ -68,7 +68,7 @@ def test_function_is_interrupted_at_its_time_limit() -> None:
 
 
 def test_missing_name_comes_with_a_similar_name() -> None:
-    """If a name is missing, the reply contains a similar name."""
+    """If a requested name does not exist, the reply contains a similar name that exists."""
     assert ask({"mesure": len}, do="look", name="measure") == {
         "answer": 1,
         "kind": "missing",
@@ -77,7 +77,7 @@ def test_missing_name_comes_with_a_similar_name() -> None:
 
 
 def test_an_imported_name_is_not_offered_for_a_missing_one() -> None:
-    """If a name is missing, the reply does not suggest an imported name."""
+    """If a requested name does not exist, the reply does not suggest an imported name."""
     assert ask({"Patch": Path}, do="look", name="Path")["alike"] == []
 
 
@@ -108,7 +108,7 @@ def test_an_exception_without_a_line_of_the_student_has_no_traceback() -> None:
 
 
 def test_object_of_the_check_can_be_an_argument() -> None:
-    """A check can pass an object of its own class as an argument."""
+    """A check can pass an argument whose class the check itself defines."""
     agent = KernelAgent({"f": lambda items: len(items)})
     agent.reply({"ask": 1, "do": "prepare", "code": "made = {1, 2, 3}", "within": 1.0})
     question = {"ask": 2, "do": "call", "name": "f", "args": [{"its": "made"}], "kwargs": {}, "within": 1.0}
@@ -135,7 +135,7 @@ def test_a_file_can_be_a_stub(tmp_path: Path) -> None:
 
 
 def test_missing_file_comes_with_a_similar_name(tmp_path: Path) -> None:
-    """If the name of a file differs only in upper and lower case, the reply contains the right name."""
+    """If a file name is wrong only in upper or lower case, the reply contains the right file name."""
     (tmp_path / "lamp.srv").write_text("---\n")
     assert ask({}, tmp_path, do="look", name="file:Lamp.srv") == {
         "answer": 1,
@@ -145,7 +145,7 @@ def test_missing_file_comes_with_a_similar_name(tmp_path: Path) -> None:
 
 
 def test_file_is_found_in_the_workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After a restart of the kernel, the agent finds the file in the workspace."""
+    """If a file is not in the working folder, the agent finds the file in the catkin workspace."""
     monkeypatch.setenv("COURSE_WORKSPACE", str(tmp_path / "ws"))
     (tmp_path / "ws" / "src").mkdir(parents=True)
     (tmp_path / "ws" / "src" / "Lamp.srv").write_text("bool on\n---\n")

@@ -15,7 +15,7 @@ import pytest
 from course_pkg.checking.kernel.time_limit import TimeLimit, TimesUp
 
 LIMIT = 0.2
-SOON = 3.0  # On a busy machine, a function may run this many seconds longer than its time limit.
+SOON = 3.0  # On a busy machine, a function ends at most this many seconds after its time limit.
 LOCK = threading.Lock()
 
 
@@ -92,7 +92,7 @@ STUBBORN = pytest.mark.parametrize(
 
 @STUBBORN
 def test_limit_ends_it(function: Callable[[], None]) -> None:
-    """Each function ends at its time limit, and no function still holds the lock."""
+    """Each function ends at its time limit, and the lock is free afterwards."""
     started = time.monotonic()
     with pytest.raises(TimesUp):
         TimeLimit(LIMIT).call(function)
@@ -102,7 +102,7 @@ def test_limit_ends_it(function: Callable[[], None]) -> None:
 
 @STUBBORN
 def test_stop_button_ends_it(function: Callable[[], None]) -> None:
-    """The first interrupt ends each function."""
+    """Each function ends after the first interrupt."""
     started = time.monotonic()
     threading.Timer(LIMIT, os.kill, (os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):

@@ -59,7 +59,7 @@ def answered(length: float) -> bool:
     ],
 )
 def test_planned_fault_affects_one_call(server: FaultyServer, fault: Json, text: str) -> None:
-    """With a planned fault, the client gets a real error message, and the next call succeeds."""
+    """A planned fault causes an error in one call of a rospy client, and the next call succeeds."""
     server.plan.append(Fault(fault))
     with pytest.raises(rospy.ServiceException) as error:
         ask(1.0)
@@ -69,7 +69,7 @@ def test_planned_fault_affects_one_call(server: FaultyServer, fault: Json, text:
 
 
 def test_late_response_is_right(server: FaultyServer) -> None:
-    """A client with a long timeout gets the right response."""
+    """If a response is late, a client with a long timeout still gets the right response."""
     server.plan.append(Fault(Late(0.05, {}), worked=True))
     assert ask(3.0) == 6.0
 

@@ -59,7 +59,7 @@ def test_a_persistent_client_stays_connected(node: Node) -> None:
 
 
 def test_idle_connections_are_closed(node: Node) -> None:
-    """When the server stops, it also closes idle connections."""
+    """When the server stops, the server also closes idle connections."""
     with ScriptedServer(node, "/p", geometry, lambda _: {}):
         proxy = rospy.ServiceProxy("/p", geometry, persistent=True)
         proxy(1, 2, 3)
@@ -119,7 +119,7 @@ def test_the_former_server_serves_again(node: Node, take: Callable[[Node], Scrip
 
 
 def test_stale_registration_has_a_closed_port(node: Node) -> None:
-    """A stale registration contains a closed port, and is removed at the end of the block."""
+    """A stale registration contains a closed port, and is removed at the end of the `with` block."""
     with Absent(node, "/x", stale=True), pytest.raises(rospy.ServiceException, match="Connection refused"):
         ask("/x", 1, 2, 3)
     assert node.master.lookup_service("/x") is None

@@ -20,7 +20,7 @@ from course_pkg.checking.peers.publisher import Publisher
 from std_msgs.msg import Float64, UInt32
 
 opened = ExitStack()
-node = opened.enter_context(on_the_graph("02.1"))
+node = opened.enter_context(on_the_graph())
 results = Results()
 
 def subscribe(topic, kind=UInt32):
@@ -93,7 +93,7 @@ def test_a_wait_ends_when_its_time_is_over(check: Kernel) -> None:
 
 
 def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
-    """The report says that the topic has no publisher, and contains a similar topic name."""
+    """If a topic has no publisher, the report says this, and contains a similar topic name."""
     assert check.run("result = broken(subscribe('/joint_states'), within=0.1)") == [
         "/joint_states is published as std_msgs/UInt32",
         "no publisher",
@@ -109,7 +109,7 @@ def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
 
 @pytest.mark.parametrize("publish", ["", "p.publish(1.5)"])
 def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) -> None:
-    """The report contains the wrong type, even before the first message."""
+    """If a publisher has the wrong message type, the report contains this type before the first message."""
     student.run(f"p = rospy.Publisher('/level', Float64, queue_size=10, latch=True); {publish}")
     _, seen, hint = check.run("result = broken(subscribe('/level'))")
     assert seen == "std_msgs/Float64"
@@ -140,7 +140,7 @@ def test_published_waits_for_the_connection(check: Kernel, student: Kernel) -> N
 
 
 def test_late_subscription_gets_only_the_latched_message(check: Kernel, student: Kernel) -> None:
-    """A late subscription receives only the latched message."""
+    """A subscription that starts after the messages receives only the latched message."""
     student.run(
         "p = rospy.Publisher('/kept', UInt32, queue_size=10, latch=True); p.publish(1); p.publish(2)\n"
         "q = rospy.Publisher('/lost', UInt32, queue_size=10); q.publish(1)"
@@ -166,7 +166,7 @@ def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) ->
 
 
 def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: Kernel) -> None:
-    """A late subscriber receives every message, and `sent` then contains the time of each message."""
+    """Published messages wait for a subscriber, and `sent` then contains the time of each message."""
     check.run("p = publish('/few', UInt32, [{'data': n} for n in (3, 1, 2)])")
     assert check.run("result = [p.has_subscriber(0.1), p.finish(0.1), p.sent]") == [False, False, []]
     student.run("subscription = node.subscribe('/few', UInt32)")

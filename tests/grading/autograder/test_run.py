@@ -76,7 +76,7 @@ def test_a_zip_inside_the_submission_has_a_message(tmp_path: Path) -> None:
 
 
 def test_links_and_pipes_are_not_read(tmp_path: Path) -> None:
-    """The program refuses a link, and a pipe does not block the run."""
+    """The program refuses links in a submission, and a named pipe does not block the run."""
     (tmp_path / "submission").mkdir()
     (tmp_path / "secret.ipynb").write_bytes(blank())
     (tmp_path / "submission" / NAMES["05"]).symlink_to(tmp_path / "secret.ipynb")
@@ -85,7 +85,7 @@ def test_links_and_pipes_are_not_read(tmp_path: Path) -> None:
 
 
 def test_two_notebooks_of_two_chapters_are_both_graded(tmp_path: Path) -> None:
-    """Both chapters are in the results."""
+    """If a submission contains notebooks of two chapters, the results contain both chapters."""
     results = graded(tmp_path, {NAMES["05"]: blank(), NAMES["06"]: blank("06")}, chapters=("05", "06"))
     tests = results["tests"]
     assert isinstance(tests, list)

@@ -102,7 +102,7 @@ def test_extensions_of_a_roster(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("written", ["two", "-1", "nan"])
 def test_a_broken_extension(written: str) -> None:
-    """The error message contains the line number, but not the student's name."""
+    """For an invalid extension, the error message contains the line number, but not the student's name."""
     person = Person("secret", line=3, more={"extension days": written})
     with pytest.raises(GradingError, match="Line 3 of the roster: extension_days is not") as caught:
         extensions_of({"secret": person})
@@ -132,7 +132,7 @@ def test_the_note_says_when() -> None:
 
 
 def test_a_time_that_is_not_known() -> None:
-    """A submission without a time counts as on time and gets a note.
+    """A submission whose time is unknown counts as on time and gets a note.
 
     If all times are missing, grading stops with an error.
     """

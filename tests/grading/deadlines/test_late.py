@@ -38,7 +38,7 @@ def _table(folder: Path, content: str | bytes) -> Path:
 def test_deduction_for_lateness(
     tmp_path: Path, per_day: float | None, max_days: float | None, late: float, factor: float
 ) -> None:
-    """Each day late costs the given percentage, up to the maximum number of days."""
+    """Each late day costs the given percentage of the points, up to the maximum number of days."""
     assert late_policy(tmp_path, per_day, max_days).factor(late) == pytest.approx(factor)
 
 
@@ -63,7 +63,7 @@ def test_without_a_table_no_submission_is_late() -> None:
 def test_invalid_policy_is_refused(
     table: Path | None, per_day: float | None, max_days: float | None, message: str
 ) -> None:
-    """The error message contains the option and the expected value."""
+    """For invalid settings, the error message contains the option and the expected value."""
     with pytest.raises(GradingError, match=message):
         late_policy(table, per_day, max_days)
 
@@ -81,7 +81,7 @@ def test_row_for_a_chapter_replaces_the_general_row(tmp_path: Path) -> None:
 
 
 def test_as_a_spreadsheet_saves_it(tmp_path: Path) -> None:
-    """The table may have a byte order mark, semicolons and decimal commas."""
+    """The table of late days can have a byte order mark, semicolons and decimal commas."""
     table = late_table(_table(tmp_path, "\ufeffStudent;Days\r\nGro\u0308ße;1,5\r\n".encode()))
     assert table.days("Größe", "05") == 1.5
 
@@ -105,14 +105,14 @@ def test_as_a_spreadsheet_saves_it(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_table(tmp_path: Path, content: str | bytes, words: str) -> None:
-    """The error message contains the line and the mistake, but not the student's name."""
+    """For a wrong table, the error message contains the line and the mistake, but no student's name."""
     with pytest.raises(GradingError, match=words) as caught:
         late_table(_table(tmp_path, content))
     assert "secret" not in str(caught.value)
 
 
 def test_no_table(tmp_path: Path) -> None:
-    """The error message contains the name of the missing file."""
+    """If the table of late days is missing, the error message contains the name of the file."""
     with pytest.raises(GradingError, match=r"none\.csv"):
         late_table(tmp_path / "none.csv")
 

@@ -54,7 +54,7 @@ def test_a_time_without_any_zone() -> None:
 
 
 def test_zones() -> None:
-    """A time zone may be a name or an offset."""
+    """A time zone is given as a name, or as an offset from UTC."""
     assert zone_of("-05:30").utcoffset(None) == zone_of("UTC-0530").utcoffset(None)
     for wrong in ("Mars/Base", "../etc/passwd", "+1"):
         with pytest.raises(GradingError, match=r"Europe/Berlin"):

@@ -86,7 +86,7 @@ def test_gradescope(tmp_path: Path, pack: bool) -> None:
 
 @pytest.mark.parametrize("outer", ["", "submitted/"])
 def test_nbgrader(tmp_path: Path, outer: str) -> None:
-    """timestamp.txt is read only with --times nbgrader."""
+    """The file timestamp.txt is read only with the option `--times nbgrader`."""
     files = {
         f"{outer}s01/ps1/{FILE}": NOTEBOOK,
         f"{outer}s01/ps1/timestamp.txt": b"2026-11-01 22:59:30.123456 UTC",
@@ -101,7 +101,7 @@ def test_nbgrader(tmp_path: Path, outer: str) -> None:
 
 
 def test_a_table_of_the_instructor(tmp_path: Path) -> None:
-    """The time comes from the row for the submitted file.
+    """If the table has a row for the submitted file, the time comes from this row.
 
     If the table has no row for the file, the time comes from the row for the chapter. If the table has no row
     for the chapter either, the time comes from the row for the student.
@@ -119,7 +119,7 @@ def test_a_table_of_the_instructor(tmp_path: Path) -> None:
 
 
 def test_the_table_of_collected_files(tmp_path: Path) -> None:
-    """The table times.csv next to the students' folders contains the times."""
+    """The times come from the table times.csv next to the students' folders."""
     source = folder(
         tmp_path, {"s01/07_build_a_package.ipynb": raw(handed_out("07")), f"s02/{FILE}": NOTEBOOK}
     )
@@ -149,7 +149,7 @@ def test_the_table_of_collected_files(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_table_of_times(tmp_path: Path, text: str, said: str) -> None:
-    """The error message contains the line number, but not the student's name."""
+    """For a wrong table, the error message contains the line number, but no student's name."""
     table = tmp_path / "times.csv"
     table.write_text(text, "utf-8")
     with pytest.raises(GradingError, match=said) as caught:

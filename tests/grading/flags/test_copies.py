@@ -160,7 +160,7 @@ def test_a_disguised_copy() -> None:
 
 
 def test_the_words_of_a_flag() -> None:
-    """The flag says whether the copy is identical or disguised, and contains a line as evidence."""
+    """The flag says whether a copy is identical or disguised, and contains a line of the answer."""
     first = flags_of(
         ["copies"], submission("s01", {"05.4": SWITCH}), submission("s02", {"05.4": SWITCH + "\n"})
     )

@@ -32,7 +32,7 @@ def test_only_the_instructor_reads_flags(tmp_path: Path) -> None:
 
 
 def test_students_with_similar_answers_are_linked(tmp_path: Path) -> None:
-    """Each entry of the list contains links to the similar student's entry and to the feedback page."""
+    """In class.html, a student's entry contains links to each similar student and to the feedback page."""
     first, second, third = class_of(3)
     grades = [
         replace(first, flags=(Flag("copies", "05.2", WORDS, 1, "x = 1", ("s02",)),)),

@@ -61,7 +61,7 @@ def test_a_link_to_a_folder_is_not_followed(tmp_path: Path) -> None:
 
 
 def test_the_reports_are_not_submissions(tmp_path: Path) -> None:
-    """The folder of --out is ignored."""
+    """If the folder of `--out` is among the submissions, the folder is ignored."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "grades/feedback/s01.html": b"x"}, "s02/out")
     assert list(_found(source, source / "grades")) == ["s01", "s02"]
     assert list(_found(source)) == ["grades", "s01", "s02"]
@@ -79,7 +79,7 @@ def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 
 def test_reports_do_not_go_into_a_students_folder(tmp_path: Path) -> None:
-    """A folder that contains submissions is refused as --out."""
+    """A folder that contains submissions is refused as the folder for `--out`."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "old/.grading/secret": b"x"}, "new")
     for wrong in (source, source / "s01"):
         with pytest.raises(GradingError, match=r"--out .* already contains files of the submissions"):

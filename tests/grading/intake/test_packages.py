@@ -65,7 +65,7 @@ def test_notebook_without_a_package(tmp_path: Path, seven: bytes) -> None:
 
 @pytest.mark.parametrize("place", ["workspace/src/my_geometry", "my_geometry-main", "07/my_geometry (2)"])
 def test_a_package_is_known_by_its_name(tmp_path: Path, place: str) -> None:
-    """The package may be in a workspace, or in a folder with another name."""
+    """A package is found in a workspace, and in a folder with another name."""
     write_package(tmp_path, f"s01/{place}", my_geometry())
     found = _only(tmp_path)
     assert (_package(found).name, found.notes) == ("my_geometry", ())

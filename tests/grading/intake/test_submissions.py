@@ -106,7 +106,7 @@ def test_layouts(tmp_path: Path, five: bytes, six: bytes) -> None:
 
 @pytest.mark.parametrize("name", ["class.zip", "other.zip"])
 def test_a_zip_of_the_folder(tmp_path: Path, five: bytes, name: str) -> None:
-    """In a zip, the students' folders may be inside another folder."""
+    """In a zip, the students' folders can be inside another folder."""
     files = {f"class/{student}/{FIVE}": five for student in ("s01", "s02")}
     assert _kept(submissions(zipped(tmp_path / name, files))) == [("s01", "05"), ("s02", "05")]
 
@@ -214,7 +214,7 @@ def test_a_notebook_of_this_edition_under_a_name_of_the_first(
 
 
 def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
-    """If a chapter has two notebooks, the newer one is graded, and a note contains the name of the other."""
+    """If a chapter has two notebooks, the newer notebook is graded, and a note names the older notebook."""
     source = folder(
         tmp_path,
         {f"one_1_2{n}_05_write_a_server{end}.ipynb": five for n, end in enumerate(["", "-2", "-10"])},
@@ -336,7 +336,7 @@ def test_pipe_is_not_opened(tmp_path: Path) -> None:
 
 
 def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The error message asks the instructor to change the permissions of the file."""
+    """For a file without read permission, the error message asks the instructor to change the permissions."""
 
     def refuse(*_: object) -> int:
         raise PermissionError(13, "Permission denied")
@@ -441,7 +441,7 @@ def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content
 
 
 def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
-    """A file in a student's folder does not count for another student, whatever its name is."""
+    """A file in a student's folder never counts for another student who is named in the file's path."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
         "submission_metadata.yml": GRADESCOPE,
@@ -470,7 +470,7 @@ def test_nothing_is_in_an_empty_folder(tmp_path: Path) -> None:
 
 
 def test_outputs_are_not_kept_in_memory(tmp_path: Path, five: bytes) -> None:
-    """The submissions are stored without outputs."""
+    """The submissions in memory contain no outputs of cells."""
     notebook = json.loads(five)
     for cell in notebook["cells"]:
         if cell["cell_type"] == "code":
@@ -492,7 +492,7 @@ def test_one_notebook(tmp_path: Path, five: bytes) -> None:
 
 
 def test_names_of_any_letters(tmp_path: Path, five: bytes) -> None:
-    """Student names may contain the letters of all languages."""
+    """Student names can contain the letters of all languages."""
     names = ["Größe", "a\u202eb", "x" * 200, "名前", "\udcff"]
     found = submissions(folder(tmp_path, {f"{name}/{FIVE}": five for name in names}))
     assert len({each.student for each in found}) == len(names)

@@ -42,5 +42,5 @@ START = "\x1b[91mNotebook cell execution failed\x1b[0m\n\x1b[94mCell 3: "
     ],
 )
 def test_a_finding_is_one_sentence(words: str, sentence: str) -> None:
-    """The sentence contains the error or the time, but no output of pytest."""
+    """Each finding is one sentence with the error or the time, without the output of pytest."""
     assert finding(words) == sentence

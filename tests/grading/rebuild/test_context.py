@@ -51,7 +51,7 @@ def test_magics_are_read_as_ipython_reads_them() -> None:
     ids=["many names and long cells", "many magics", "a long ladder", "deep"],
 )
 def test_unusual_sources_take_little_time(answer: str, above: list[str]) -> None:
-    """The search is fast for unusual sources."""
+    """The search takes little time, even for very unusual source code."""
     began = time.process_time()
     assert needed(answer, "", above) == ()
     assert time.process_time() - began < 10.0  # Without a limit, the search would take minutes.

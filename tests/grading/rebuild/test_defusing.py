@@ -1,4 +1,4 @@
-"""Tests that an answer contains no nbval markers and no cell magics."""
+"""Tests of the function that removes nbval markers and cell magics from an answer."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_a_magic_below_a_magic() -> None:
 
 
 def test_an_indented_cell_with_a_magic() -> None:
-    """An indented first line with %% is a magic."""
+    """An indented first line with %% counts as a magic."""
     assert "was removed" in defuse("  %%script true\n  x = 1").notes[0]
 
 

@@ -65,7 +65,7 @@ def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
 
 
 def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
-    """Insert a student's own cells; if `shift` is 1, they are directly below the cell with the id `name`."""
+    """Insert a student's own cells below the cell with the id `name`, or above it if `shift` is 0."""
     place = _place(cells, name) + shift
     cells[place:place] = [code(source, id=f"own-{place}-{number}") for number, source in enumerate(sources)]
 
@@ -195,7 +195,7 @@ def test_last_of_several_answers_is_used() -> None:
 
 
 def test_identical_copy_leads_to_no_note() -> None:
-    """An identical, empty or blank copy of an answer leads to no note."""
+    """A copied exercise cell with the same answer, no code or the blank exercise leads to no note."""
     for source in (ANSWER, "", BLANK):
         made = _rebuilt(_student(lambda cells, source=source: _copied(cells, D, source), d=ANSWER))
         assert (made.answers["05.1"], made.notes) == (ANSWER, ())
@@ -278,7 +278,7 @@ def test_an_answer_of_absurd_length() -> None:
 
 
 def test_id_decides_between_different_metadata() -> None:
-    """If the id and the metadata of a cell differ, the id selects the exercise."""
+    """If the id and the metadata of a cell belong to different exercises, the id selects the exercise."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)].update(metadata={"course": {"exercise": "05.2"}}, source=ANSWER)
@@ -303,7 +303,7 @@ def test_tags_and_metadata_of_the_student_stay_out() -> None:
 
 
 def test_markers_and_magics_are_removed() -> None:
-    """Markers and magics are removed, and each removal leads to a note."""
+    """Markers of nbval and cell magics in answers are removed, and each removal leads to a note."""
     made = _rebuilt(_student(d="%%script true\n# NBVAL_SKIP\n" + ANSWER))
     assert made.answers["05.1"] == "# %%script has no effect here\n# (NBVAL_SKIP)\n" + ANSWER
     assert len(made.notes) == 2
@@ -352,7 +352,7 @@ def test_cells_that_are_none(cell: object) -> None:
 
 @pytest.mark.parametrize("version", [2, 3])
 def test_an_old_format(version: int) -> None:
-    """Notebooks of old formats can be read."""
+    """The answers in notebooks of the old formats 2 and 3 are found."""
     notebook = nbformat.from_dict(json.loads(_student(d=ANSWER, c=COUNTER, w=WRITES)))
     old = nbformat.convert(notebook, version)
     made = _rebuilt(json.dumps(old).encode())

@@ -23,7 +23,7 @@ from tests.support import eventually, usual
 def opened(
     browser: Browser, url: str, width: int = 1280, colours: Colours = "light"
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page with its token, and wait until it shows its data."""
+    """Open the page with the token in the URL, and wait until the page shows its data."""
     with page_at(browser, f"{url}/?token={TOKEN}", width, colours) as (page, words):
         expect(page.locator("body[data-shown='0']")).to_be_visible()
         yield page, words
@@ -81,7 +81,7 @@ def test_a_review_with_the_keyboard_only(browser: Browser, tmp_path: Path) -> No
 
 
 def test_a_folder_that_cannot_be_written(browser: Browser, tmp_path: Path) -> None:
-    """If the page cannot save a review, it stores the typed text and saves it later."""
+    """If a review cannot be saved, the page keeps the typed text and saves the text later."""
     out = write_class(tmp_path)
     blocked = out / FILE
     with serving(out) as url, opened(browser, url) as (page, _words):
@@ -106,7 +106,7 @@ def test_a_folder_that_cannot_be_written(browser: Browser, tmp_path: Path) -> No
 
 
 def test_a_spreadsheet_saves_while_the_page_is_open(browser: Browser, tmp_path: Path) -> None:
-    """If a spreadsheet program adds a row to the file, the page keeps this row when it saves its own row."""
+    """The page does not delete a row that a spreadsheet program adds while the page is open."""
     out = write_class(tmp_path)
     with serving(out) as url, opened(browser, url) as (page, _words):
         page.keyboard.press("n")

@@ -27,7 +27,7 @@ FOREIGN: list[dict[str, str]] = [
 
 
 def test_foreign_requests_are_refused(tmp_path: Path) -> None:
-    """The server refuses a request without the token, or with a wrong host or origin."""
+    """The server refuses a request without the token, or with a wrong Host or Origin header."""
     out = write_class(tmp_path)
     change = {"number": 1, "points": "1", "comment": ""}
     with serving(out) as url:
@@ -69,7 +69,7 @@ def _refused(out: Path, *options: str) -> str:
 
 
 def test_the_command(tmp_path: Path) -> None:
-    """A second `course review` of the folder is refused, and saved points remain after SIGKILL."""
+    """A second `course review` for the same folder is refused, and saved points remain after SIGKILL."""
     out = write_class(tmp_path / "grades")
     with _review(out, "--part", "5.1") as (process, url, token):
         own = {"Authorization": f"token {token}"}
@@ -99,7 +99,7 @@ def test_the_command_explains_what_is_wrong(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["student,part\n", "\xff"])
 def test_a_wrong_file_stops_the_review(tmp_path: Path, content: str) -> None:
-    """The error message contains the line number, and the file does not change."""
+    """For a wrong overrides.csv, the error message contains the line number, and the file does not change."""
     out = write_class(tmp_path / "grades")
     (out / "overrides.csv").write_bytes(content.encode("latin-1"))
     assert "line 1" in _refused(out)

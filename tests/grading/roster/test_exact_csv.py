@@ -50,7 +50,7 @@ def test_quotes_of_php() -> None:
 
 
 def test_lines_are_counted_in_the_file() -> None:
-    """A record contains the number of its first line."""
+    """Each CSV record contains the number of its first line in the file."""
     assert [each.line for each in records('a\n"1\n2"\nb\n', ",")] == [1, 2, 4]
 
 

@@ -32,7 +32,7 @@ def _file(folder: Path, content: str | bytes) -> Path:
     ids=["as documented", "another order", "Excel", "tabs", "blanks", "UTF-16", "two columns for the name"],
 )
 def test_as_spreadsheets_and_platforms_save_it(tmp_path: Path, content: str | bytes) -> None:
-    """A roster may have any column order, any separator and a byte order mark."""
+    """A roster can have any column order, any separator and a byte order mark."""
     [person] = read_roster(_file(tmp_path, content))
     assert (person.name, person.id, person.email, person.username, person.section) == (
         *("Jane Doe", "17", "jane@uni.example"),
@@ -85,7 +85,7 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
     ],
 )
 def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """The error message contains the mistake and its line, but no cell of the file."""
+    """For a wrong roster, the error message contains the mistake and its line, but no cell of the file."""
     with pytest.raises(GradingError, match=message) as caught:
         read_roster(_file(tmp_path, content))
     assert "roster.csv" in str(caught.value)
@@ -93,7 +93,7 @@ def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> Non
 
 
 def test_no_roster(tmp_path: Path) -> None:
-    """The error message contains the name of the missing file."""
+    """If the roster is missing, the error message contains the name of the file."""
     with pytest.raises(GradingError, match=r"none\.csv cannot be read: No such file.*Correct the path"):
         read_roster(tmp_path / "none.csv")
 

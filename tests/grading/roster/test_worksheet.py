@@ -33,7 +33,7 @@ def test_an_unchanged_copy(tmp_path: Path, content: str) -> None:
     ids=IDS,
 )
 def test_only_two_cells_change(tmp_path: Path, content: str, grade: int, written: str) -> None:
-    """The grade has the file's decimal separator, and all other cells do not change."""
+    """Only the grade and the feedback change, and the grade has the decimal separator of the worksheet."""
     worksheet = _read(tmp_path, content)
     first = worksheet.participants[0]
     separator = ";" if content is FRENCH else ","
@@ -95,7 +95,7 @@ def test_the_participants(
     ],
 )
 def test_a_file_that_moodle_would_refuse(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """The error message contains the mistake and its line, but no cell of the file."""
+    """For a wrong worksheet, the error message contains the mistake and its line, but no cell of the file."""
     with pytest.raises(GradingError, match=message) as caught:
         _read(tmp_path, content)
     assert "sheet.csv" in str(caught.value)

@@ -39,7 +39,7 @@ def _address(file: Path) -> str:
 
 
 def test_a_scheduler_without_workers(scheduler: tuple[subprocess.Popen[bytes], str]) -> None:
-    """The error message contains the command that starts workers."""
+    """If the scheduler has no workers, the error message contains the command that starts workers."""
     _, address = scheduler
     expected = rf"no worker .*\./course run dask worker {address}"
     with pytest.raises(GradingError, match=expected), cluster_of(address, patience=0.5):

@@ -29,7 +29,7 @@ CHAPTERS = ["05", "06"]
     ],
 )
 def test_a_wrong_folder_is_refused(tmp_path: Path, files: dict[str, bytes], said: str) -> None:
-    """The error message contains the wrong file name and the valid names."""
+    """For a wrong file, the error message contains the file name and the valid names."""
     with pytest.raises(GradingError, match=said):
         require_names(folder(tmp_path, files), CHAPTERS)
 

@@ -81,7 +81,7 @@ def test_a_class_over_several_runs(tmp_path: Path) -> None:
     ],
 )
 def test_an_option_that_makes_no_sense(tmp_path: Path, words: list[str], said: str) -> None:
-    """The error message contains the option, and no submission is graded."""
+    """For a wrong option, the error message contains the option, and no submission is graded."""
     hand_in(tmp_path, "s01", "00")
     options = vars(parse(["grade", str(tmp_path), "--out", str(tmp_path / "grades"), *words]))
     with pytest.raises(CourseError, match=re.escape(said)):
@@ -89,7 +89,7 @@ def test_an_option_that_makes_no_sense(tmp_path: Path, words: list[str], said: s
 
 
 def test_a_private_part_without_an_exercise(tmp_path: Path) -> None:
-    """If a file of private checks declares no part, the command refuses it before grading."""
+    """If a file of private checks declares no part, the command refuses the file before grading."""
     hand_in(tmp_path / "in", "s01", "00")
     private = tmp_path / "private"
     private.mkdir()

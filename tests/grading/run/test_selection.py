@@ -46,7 +46,7 @@ def test_a_chapter_and_files_without_a_chapter() -> None:
 
 @pytest.mark.parametrize("name", ["s01", "S01"])
 def test_a_student_in_any_case(name: str) -> None:
-    """A student's name may be given in upper or lower case."""
+    """`--student` accepts a student's name in upper or lower case."""
     assert _chosen(selection([name], (), ())) == [("s01", "05"), ("s01", "06")]
 
 
@@ -59,14 +59,14 @@ def test_a_student_without_the_number_of_the_platform() -> None:
     ("name", "said"), [("A One", "fits 2 students"), ("s99", "is not the name of a student")]
 )
 def test_a_name_that_does_not_fit_one_student(name: str, said: str) -> None:
-    """The error message contains the file with the list of names, but no other student's name."""
+    """If a name does not select one student, the error message names grades.csv, but no other student."""
     with pytest.raises(GradingError, match=rf"--student {name} .*{said}.*grades\.csv") as caught:
         selection([name], (), ()).for_students(SUBMISSIONS)
     assert "s01" not in str(caught.value)
 
 
 def test_a_part_selects_its_chapter() -> None:
-    """In a part's id, the chapter number may have one digit."""
+    """In the id of a part, the chapter number can have one digit."""
     selected = selection((), (), ["5.2"])
     assert (selected.chapters, selected.parts_of("05"), selected.parts_of("06")) == (("05",), ("05.2",), ())
     assert selected.again
@@ -143,7 +143,7 @@ def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
 
 
 def test_another_assignment_in_the_same_folder(tmp_path: Path) -> None:
-    """If no student submitted a chapter, the chapter's earlier results are not marked in the reports."""
+    """If no student submitted a chapter in this run, the chapter's earlier results are not marked."""
     write_reports(class_of(2, ("05", "06")), tmp_path)
     earlier = read_earlier(tmp_path)
     now = [grade for grade in earlier.grades if grade.chapter == "06" and grade.student == "s01"]

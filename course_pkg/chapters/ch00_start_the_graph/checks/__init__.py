@@ -34,6 +34,7 @@ MISSED = "Return how many numbers were published between the two received number
     ),
     needs=["name_of_node", "name_of_service", "name_of_type"],
     goals=[NODE, SERVICE, TYPE],
+    runs=["server"],
 )
 def read_the_graph(context: CheckContext) -> None:
     """Compare the student's names of the node, the service and the type with the right names."""
@@ -153,6 +154,7 @@ def read_the_graph(context: CheckContext) -> None:
     points=2,
     goal="Return the volume from the response of a service.",
     needs=["ask_for_volume"],
+    runs=["server"],
 )
 def ask_a_question(context: CheckContext) -> None:
     """Respond with random volumes; the student's function can know a volume only from the response."""
@@ -276,6 +278,7 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     needs=["count_missed"],
     deadline=25.0,
     goals=[RECEIVED, MISSED],
+    runs=["server"],
 )
 def count_what_was_missed(context: CheckContext) -> None:
     """Run the student's function twice, with different pauses.

@@ -36,6 +36,7 @@ PUBLISHES = (
     needs=["measurer_command"],
     deadline=60.0,
     goals=[OWN_SERVICE, OWN_NODE],
+    runs=["server"],
 )
 def a_measurer_for_each_room(context: CheckContext) -> None:
     """Run the student's commands for two rooms, and call the servers that the commands start."""
@@ -64,6 +65,7 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
     needs=["viewer_command"],
     deadline=60.0,
     goals=[VIEWER, SUBSCRIBES, PUBLISHES],
+    runs=["simulator"],
 )
 def a_viewer_for_each_arm(context: CheckContext) -> None:
     """Run the student's commands for two arms, and compare the names of started nodes and their topics."""

@@ -19,6 +19,8 @@ from course_pkg.checking.shared.catkin_package import BuiltPackage, Package
 from course_pkg.ros import Snapshot
 
 DRIVER, SECOND = "improved_pubvel_toggle", "spawn_turtle_plus"
+# The check starts these programs of the course in place of missing programs of the student.
+COURSE_PROGRAMS = (DRIVER, SECOND, "spawn_turtle", "driver_node", "driving")
 ALWAYS = {"/turtlesim", f"/{DRIVER}"}
 READY = 20.0  # On a busy machine, a launch file must start its nodes within this time in s.
 # This script replaces a program that the student wrote in an earlier exercise, and starts the course's
@@ -66,6 +68,7 @@ START = f"""%%writefile {FILE.path}
     needs=[f"file:{FILE.path}"],
     deadline=60.0,
     start=START,
+    runs=COURSE_PROGRAMS,
 )
 def two_turtles_or_one(context: CheckContext) -> None:
     """Examine the list of nodes in the launch file; then start these nodes with a separate master."""

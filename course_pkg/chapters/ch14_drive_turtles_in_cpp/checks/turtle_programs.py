@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from course_pkg.chapters.ch09_drive_turtles.checks.follow import FOLLOW_GOALS, follows
 from course_pkg.chapters.ch09_drive_turtles.checks.improved import IMPROVED_GOALS, is_improved
-from course_pkg.chapters.ch09_drive_turtles.checks.launch_file import LaunchFile, launches
+from course_pkg.chapters.ch09_drive_turtles.checks.launch_file import COURSE_PROGRAMS, LaunchFile, launches
 from course_pkg.chapters.ch09_drive_turtles.checks.rate import RATE_GOALS, changes_its_rate
 from course_pkg.chapters.ch09_drive_turtles.checks.spawn import SPAWN_GOALS, spawns
 from course_pkg.chapters.ch09_drive_turtles.checks.toggle import TOGGLE_GOALS, toggles
@@ -109,6 +109,7 @@ def bring_a_second_turtle(context: CheckContext) -> None:
     needs=[f"file:{LAUNCH.path}"],
     deadline=60.0,
     start=f"%%writefile {LAUNCH.path}\n...",
+    runs=COURSE_PROGRAMS,
 )
 def two_turtles_or_one(context: CheckContext) -> None:
     """Check the launch file in the same way as in chapter 09."""

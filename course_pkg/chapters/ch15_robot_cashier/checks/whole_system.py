@@ -110,6 +110,8 @@ AFTERWARDS = (
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
+    # The check starts the course's programs in place of missing programs of the student.
+    runs=[*NODES, "simulator", "watch", "pictures"],
 )
 def the_whole_system(context: CheckContext) -> None:
     """Let customers come and leave, let the printer and the camera fail, and kill all nodes."""

@@ -45,12 +45,7 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _teams(group: Group) -> list[list[Work]]:
-    """Return groups of works.
-
-    If a team has submitted one file, the works from this file form a group.
-
-    Any other work forms a group alone.
-    """
+    """Return the works in groups; a group contains the works of all students who submitted the same file."""
     teams: dict[str, list[Work]] = {}
     for work in group.works:
         teams.setdefault(work.origin, []).append(work)

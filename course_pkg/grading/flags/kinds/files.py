@@ -1,4 +1,4 @@
-"""Answers that read files or run programs, although the exercise does not require this."""
+"""Answers that read files or run programs, although the exercise does not require it."""
 
 from __future__ import annotations
 
@@ -60,9 +60,8 @@ SYSTEM = frozenset(
     ]
 )
 PROGRAMS = ("subprocess.", "os.exec", "os.spawn", "os.posix_spawn", "os.fork", "pty.", "multiprocessing.")
-METHODS = frozenset(
-    ["read_text", "read_bytes", "iterdir", "rglob"]
-)  # Only pathlib.Path objects have methods with these names.
+# Only pathlib.Path objects have the methods in METHODS.
+METHODS = frozenset(["read_text", "read_bytes", "iterdir", "rglob"])
 PATH_METHODS = frozenset(
     [
         "exists",
@@ -79,7 +78,7 @@ PATH_METHODS = frozenset(
     ]
 )
 PATHS = frozenset(["pathlib.Path", "pathlib.PosixPath"])
-# The methods of get_ipython() that run commands of the shell or of IPython.
+# get_ipython() returns an object with the methods in SHELL, which run commands of the shell or of IPython.
 SHELL = frozenset(["system", "getoutput", "run_line_magic", "run_cell_magic"])
 PLACES = re.compile(
     r"(^|[/.])solutions?([/.]|$)|/proc\b|/etc/|/home/|/root/|\.ipynb\b|site-packages|\.grading\b|grades/"
@@ -88,7 +87,7 @@ PLACES = re.compile(
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each call that uses files or other programs.
+    """Yield a flag for each call in an answer that uses files or runs other programs.
 
     Calls that also occur in the course's own code are not flagged.
     """

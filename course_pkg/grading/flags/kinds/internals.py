@@ -79,10 +79,9 @@ ATTRIBUTES = frozenset(
         "user_ns",
     ]
 )
-PUBLIC = re.compile(r"course_pkg(\.(srv|msg)\b.*)?")  # These packages contain only types.
-COMMANDS = frozenset(
-    ["system", "getoutput", "run_line_magic", "run_cell_magic"]
-)  # IPython converts lines that begin with ! or % into calls of these methods.
+PUBLIC = re.compile(r"course_pkg(\.(srv|msg)\b.*)?")  # These packages contain only message and service types.
+# IPython converts lines that begin with ! or % into calls of the methods in COMMANDS.
+COMMANDS = frozenset(["system", "getoutput", "run_line_magic", "run_cell_magic"])
 MODULE = re.compile(r"course_pkg(\.[a-z_]+)+")
 
 
@@ -140,10 +139,7 @@ def _is_internal(name: str) -> bool:
 
 
 def _named(text: str, line: int) -> Iterator[Observation]:
-    """Yield an observation for a string that is the name of a module or attribute.
-
-    The string must be the name of a module of the course, or of an attribute that getattr() can read.
-    """
+    """Yield an observation if a string in the code is the name of an internal module or attribute."""
     if MODULE.fullmatch(text) and not PUBLIC.fullmatch(text):
         yield Observation(text, line, f"The code contains the name {text}.")
     elif text in ATTRIBUTES:

@@ -24,10 +24,11 @@ CHANGED = (
 def find(group: Group) -> Iterator[Found]:
     """Yield a flag for each answer that is identical or nearly identical to the course's solution.
 
-    The solution of a short exercise is not evidence, because many students write the same code. Therefore,
-    only statements that are not in the blank cells are counted. The answers that are identical to the
-    solution are reported only if they have at least ten of these statements in total. A nearly identical
-    answer is reported only if the solution of this exercise has at least ten of these statements.
+    A short answer that is equal to the solution does not prove copying, because many students write the same
+    code. Therefore, the statements in the unchanged exercise cells that students get are not counted. Answers
+    that are identical to the solutions are reported only if they contain at least ten other statements in
+    total. A nearly identical answer is reported only if the solution of this exercise contains at least ten
+    other statements.
     """
     blanks = blank_fingerprints(group)
     own = {name: fingerprint(answer) for name, answer in group.solution.items()}
@@ -49,7 +50,7 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _written(answer: Fingerprint, given: Fingerprint) -> int:
-    """Return the number of statements that are not in the exercise cell that students get."""
+    """Return the number of statements in `answer` that are not in `given`, the unchanged exercise cell."""
     forms = {form for form, _ in given.lines}
     return sum(form not in forms for form, _ in answer.lines)
 

@@ -1,1 +1,1 @@
-"""One module for each report; `write(book, out)` writes the report into the folder `out`."""
+"""One module for each report; `write(book, out)` writes the grades `book` into files in the folder `out`."""

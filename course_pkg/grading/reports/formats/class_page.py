@@ -86,7 +86,7 @@ def _key() -> str:
 
 
 def _spread(book: Book, column: Column) -> str:
-    """Return the results of a part as a bar and as text."""
+    """Return the results of a part as a coloured bar and as text."""
     reports = [report_of(book.grade(student, column.chapter), column.check) for student in book.students]
     verdicts = Counter(report.verdict for report in reports if report)
     there = sum(verdicts.values())
@@ -134,7 +134,7 @@ def _hints(book: Book) -> str:
 def _looks(book: Book) -> str:
     """Return the students who need attention, with the most serious cases first.
 
-    Notes about the other students follow, in a list that the reader can unfold.
+    Notes about the remaining students follow, in a list that the reader can unfold.
     """
     found = [(student, attention(book, student)) for student in book.students]
     grave = {student: reasons for student, reasons in found if reasons}
@@ -191,7 +191,7 @@ def _listed(reasons: Sequence[str]) -> str:
 def _link(student: str) -> str:
     """Return a link to the feedback page.
 
-    The file name of the page contains no HTML characters, so it is not escaped.
+    The file name of a feedback page contains no HTML characters, so the name is not escaped.
     """
     return f'<a href="feedback/{clean.file_name(student or "nobody")}.html">{text(name_of(student))}</a>'
 

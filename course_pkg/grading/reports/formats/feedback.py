@@ -1,4 +1,4 @@
-"""feedback/<student>.html: the feedback for a student about the grade."""
+"""feedback/<student>.html: a page that explains the grade to the student."""
 
 from __future__ import annotations
 
@@ -73,13 +73,11 @@ def _code(code: str) -> str:
 
 
 def _review(report: Report) -> str:
-    """Return the instructor's points and comment for this part."""
     sentences = (f"<p>{clean.html(sentence)}</p>" for sentence in report.about_review())
     return f'<div class="review">{"".join(sentences)}</div>' if report.review else ""
 
 
 def _credits(report: Report) -> str:
-    """Return the points of each goal."""
     items = "".join(f"<li>{text(line, 600)}</li>" for line in report.credits())
     return f"{paragraph(GOALS)}<ul>{items}</ul>" if items else ""
 
@@ -108,7 +106,7 @@ def _printed(report: Report) -> str:
 
 
 def _cells(grade: Grade) -> Iterator[str]:
-    """Yield the result of nbval's run, with the cells that differ from the reference."""
+    """Yield the result of nbval, with the cells whose outputs differ from the solution's outputs."""
     if not grade.cells:
         return
     others = [cell for cell in grade.cells if cell.outcome != "passed"]

@@ -1,9 +1,8 @@
-"""gradescope.csv, in the layout of the file that Gradescope offers as a download of grades.
+"""gradescope.csv has the same layout as the file of grades that an instructor can download from Gradescope.
 
 Gradescope (Review Grades, Download Grades) writes Name, SID, Email, Sections, Total Score, Max Points,
-Status, Submission ID, and a column for each question, such as "1: Title (2.0 pts)". Programs that read grades
-from Gradescope can read this file. Gradescope itself imports grades only from results.json (see
-gradescope.py).
+Status, Submission ID, and a column for each question. Gradescope itself imports grades only from results.json
+(see gradescope.py).
 """
 
 from __future__ import annotations

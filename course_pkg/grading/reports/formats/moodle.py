@@ -1,13 +1,14 @@
-"""moodle.csv, for Moodle's menu Grades, Import, CSV file.
+"""moodle.csv can be imported into Moodle with the menu Grades, Import, CSV file.
 
 During the import, Moodle asks for the meaning of each column.
 
-Map the column `username` or `email` to the student: Moodle cannot find a student by a full name or by a
-participant number. For submissions from Moodle, `username` and `email` come from a roster or from Moodle's
-worksheet. Map each chapter to its grade item, and its feedback to "Feedback for". Always map both the grade
-column and the feedback column of a chapter. Moodle deletes the grade of an item if only its feedback is
-imported (https://docs.moodle.org/en/Grade_import). For the grades of only one assignment, use the copy of
-Moodle's worksheet, which is simpler (moodle_worksheet.py).
+In Moodle's dialog, map the column `username` or `email` to the student; Moodle cannot find a student by a
+full name or by a participant number. For submissions from Moodle, `username` and `email` come from a roster
+or from Moodle's worksheet. Map the column of each chapter to the grade item of this chapter, and the feedback
+column to "Feedback for". Always map both the grade column and the feedback column of a chapter. If only the
+feedback for an item is imported, Moodle deletes the grade of this item
+(https://docs.moodle.org/en/Grade_import). For the grades of only one assignment, use the copy of Moodle's
+worksheet, which is simpler (moodle_worksheet.py).
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports.files import put_table
 from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, points
 
-LONG = 3_000  # A feedback has at most this many characters.
+LONG = 3_000  # A feedback text has at most this many characters.
 
 
 def write(book: Book, out: Path) -> None:

@@ -2,7 +2,7 @@
 
 Only the columns Grade and Feedback comments change, and only in rows of students with a submission and an
 unlocked grade. If Moodle's maximum grade differs from the possible points, the points are scaled. Without
-this scaling, Moodle would read 9 of 9 points as 9 of 100. If the points are scaled, the feedback also
+this scaling, Moodle would read 9 of 9 points as 9 of 100 points. If the points are scaled, the feedback also
 contains the unscaled points. A worksheet belongs to one assignment, so the grade is the sum of all chapters
 of the run.
 """
@@ -19,7 +19,7 @@ NAME = "moodle_worksheet.csv"
 
 
 def write(book: Book, out: Path) -> None:
-    """Write the copy, if the instructor gave a worksheet."""
+    """Write moodle_worksheet.csv if the instructor gave a worksheet."""
     class_list = book.class_list
     if class_list.worksheet is None:
         return
@@ -32,7 +32,7 @@ def write(book: Book, out: Path) -> None:
 
 
 def _grade(book: Book, student: str, maximum: float | None) -> str:
-    """Return the points for Moodle; they are scaled only if there is a maximum grade."""
+    """Return the points for Moodle; if `maximum` is not None, the points are scaled to this maximum."""
     earned = book.earned(student)
     possible = book.possible_for(student)
     return points(earned if maximum is None or not possible else min(maximum, earned * maximum / possible))

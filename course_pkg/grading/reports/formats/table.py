@@ -47,7 +47,7 @@ def write(book: Book, out: Path) -> None:
 
 
 def _row(book: Book, student: str) -> list[str]:
-    """Return a student's row.
+    """Return a student's row in grades.csv.
 
     Cells for missing submissions are empty. Only the totals include the deduction for lateness.
     """
