@@ -25,8 +25,8 @@ WAITED = re.compile("waiting for service|unavailable")  # rospy's error messages
 # A run of the client may take this many s: rospy needs 0.5 s to start (5 s on a busy machine), and the client
 # waits up to 5 s.
 WITHIN = 16.0
-# Without a server, the client has to end within WAITING s and SLOWER times the time of its fastest run with wrong
-# arguments, which shows how long a start takes now.
+# Without a server, the client has to end within WAITING s and SLOWER times the time of its fastest run with
+# wrong arguments, which shows how long a start takes now.
 WAITING, SLOWER = 7.0, 1.5
 
 START = f"""%%writefile {FILE}
