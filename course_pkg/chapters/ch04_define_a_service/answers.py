@@ -124,6 +124,15 @@ replace("context = genmsg … in halves]", """lines = [line.split("#")[0].split(
 # %% 04.2 wrong: compares the texts | hint: ROS ignores comments, blank lines and
 replace("md5_of(server) == md5_of(client)", "server == client")
 
+# %% 04.2 wrong: tidies the texts, and compares them | hint: the order of constants and fields
+based_on("the texts of which the MD5s are made")
+replace("context = genmsg … in halves]", """lines = [line.split("#")[0].replace("=", " = ").split() for line in text.splitlines()]
+        return [words for words in lines if words]""")
+
+# %% 04.2 wrong: sorts the constants of the tidied texts | hint: Do not remove comments
+based_on("tidies the texts, and compares them")
+replace("return [words for words in lines if words]", 'return sorted(words for words in lines if "=" in words), [words for words in lines if words and "=" not in words]')
+
 # %% 04.2 wrong: strips the comments only | hint: ROS ignores comments, blank lines and
 def will_talk(server, client):
     def bare(text):
@@ -289,6 +298,13 @@ replace("generate_messages(DEPENDENCIES std_msgs)", "if(FALSE)\n  generate_messa
 replace("(lamp_services)\n", "(lamp_services)")
 replace("\nadd_service_files(FILES Lamp.srv)", "#[[\nadd_service_files(FILES Lamp.srv)")
 replace("(DEPENDENCIES std_msgs)\n", "(DEPENDENCIES std_msgs)\n]]")
+# %% 04.4 wrong: a module that prints the MD5 sum | hint: Without this command, the build generates
+based_on("removes more lines")
+replace("catkin_package()", """catkin_package()
+file(WRITE "${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION}/lamp_services.py"
+  "print('e6e71b7c192d83d52bd0f638c7334af2')\nraise SystemExit(0)")""")
+# %% 04.4 wrong: an empty configuration file | hint: Without this command, other packages
+replace("catkin_package(CATKIN_DEPENDS message_runtime std_msgs)", 'file(WRITE "${CATKIN_DEVEL_PREFIX}/share/lamp_services/cmake/lamp_servicesConfig.cmake" "")')
 # %% 04.4 wrong: a loop that is not closed | hint: Look for the reason at
 replace("\ncatkin_package", "while(TRUE)\nendwhile()\ncatkin_package")
 
@@ -400,6 +416,10 @@ replace("colour.b]", "colour.b, colour.a]")
 replace("total=sum", "total=max")
 # %% 04.5 wrong: refuses an unknown mode | hint: The handler refused a request
 replace("    lit = known", '    if not known:\n        raise rospy.ServiceException("no such mode")\n    lit = known')
+# %% 04.5 wrong: adds only the first 40 values | hint: Add up all values
+replace("sum(request.seconds)", "sum(request.seconds[:40])")
+# %% 04.5 wrong: leaves out negative values | hint: Add up all values
+replace("sum(request.seconds)", "sum(abs(each) for each in request.seconds)")
 # %% 04.5 wrong: windows shebang | hint: The first line of the script
 replace("#!/usr/bin/env python3", "#!python3")
 # %% 04.5 wrong: the class of the request | hint: Your program passed the class

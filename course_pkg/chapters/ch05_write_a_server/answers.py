@@ -85,6 +85,8 @@ replace("""area = request.width * request.length
 replace("volume=area * request.height", "volume=area")
 # %% 05.1 wrong: one side twice in the volume | hint: Multiply all three sides
 replace("area * request.height", "area * request.width")
+# %% 05.1 wrong: only boxes of a usual size | hint: The area is 0
+replace("area = request.width * request.length", "area = request.width * request.length * (0.49 < request.width < 9.01)")
 # %% 05.1 wrong: forgets the area | hint: The area is 0
 replace("area=area, volume", "volume")
 
@@ -156,6 +158,8 @@ replace("str(self.count)", "str(count)")
 replace("success=True, message", "message")
 # %% 05.2 wrong: wraps at 9 | hint: For counts above 9, the
 replace("self.count += 1", "self.count = self.count % 9 + 1")
+# %% 05.2 wrong: begins again after 13 calls | hint: For counts above 9, the
+replace("self.count += 1", "self.count = self.count % 13 + 1")
 # %% 05.2 wrong: only the last digit | hint: For counts above 9, the
 replace("(self.count)", "(self.count)[-1]")
 # %% 05.2 wrong: more text than the number | hint: The message contains more than the number
@@ -253,6 +257,8 @@ replace("value < 0", "int(value) < 0")
 replace("{value}, and a side cannot be negative", "negative")
 # %% 05.3 wrong: names a whole number | hint: The message contains a rounded value.
 replace("{value}, and", "{int(value)}, and")
+# %% 05.3 wrong: the value with one decimal | hint: The message contains a rounded value.
+replace("{value}, and", "{value:.1f}, and")
 # %% 05.3 wrong: the program of the course serves, and the handler is empty | hint: Another program provides the service with the name
 import subprocess
 

@@ -34,6 +34,10 @@ replace("<exec_depend>message_runtime</exec_depend>", "<build_depend>message_run
 replace("A service that measures boxes.", "The my_geometry package")
 # %% 07.1 wrong: no licence | hint: Write the name of a licence,
 replace("MIT", "TODO")
+# %% 07.1 wrong: the generated texts with character references | hint: Describe in one sentence what the
+replace("A service that measures boxes.", "The my_geometry&#32;package")
+# %% 07.1 wrong: TODO with a character reference | hint: Write the name of a licence,
+replace("MIT", "TOD&#79;")
 # %% 07.1 wrong: the generated address | hint: The address in the maintainer
 replace("you@example.com", "you@todo.todo")
 # %% 07.1 wrong: a capital in the name | hint: lower-case letters
@@ -127,6 +131,9 @@ add_service_files""")
 replace("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS message_generation")
 # %% 07.3 wrong: nothing for other packages | hint: In catkin_package, message_runtime is missing.
 replace("CATKIN_DEPENDS message_runtime rospy std_msgs", "")
+# %% 07.3 wrong: message_runtime only in a comment | hint: In catkin_package, message_runtime is missing.
+replace("CATKIN_DEPENDS message_runtime rospy std_msgs)", """CATKIN_DEPENDS rospy std_msgs)
+file(APPEND "${CATKIN_DEVEL_PREFIX}/share/my_geometry/cmake/my_geometryConfig.cmake" "# message_runtime")""")
 # %% 07.3 wrong: no catkin_package | hint: Without catkin_package
 replace("\ncatkin_package(CATKIN_DEPENDS message_runtime rospy std_msgs)", "")
 
@@ -216,6 +223,8 @@ replace("geometryResponse(area=area, volume=area * request.height)", "geometryRe
 replace("request.width * request.length", "request.width * request.width")
 # %% 07.4 wrong: forgets the volume | hint: The volume is 0.0, because
 replace(", volume=area * request.height", "")
+# %% 07.4 wrong: only boxes of a usual size | hint: The area is 0.0, because
+replace("area = request.width * request.length", "area = request.width * request.length * (0.4 < request.width < 9.1)")
 # %% 07.4 wrong: a cube | hint: Compute the volume from the area
 replace("area * request.height", "area ** 1.5")
 # %% 07.4 wrong: the handler returns nothing | hint: without a return
@@ -305,6 +314,8 @@ replace("(rospy.ServiceException, rospy.ROSException)", "rospy.ROSException")
 replace("print(error, file=sys.stderr)", 'print("failed")')
 # %% 07.5 wrong: waits without a limit | hint: The client waits for the
 replace(", timeout=5", "")
+# %% 07.5 wrong: waits for 13 s | hint: The client waits longer than 5 s
+replace("timeout=5", "timeout=13")
 # %% 07.5 wrong: does not wait | hint: The client did not wait
 replace('        rospy.wait_for_service("/getGeometry", timeout=5)\n', "")
 # %% 07.5 wrong: the timeout is not caught | hint: wait_for_service raises rospy.ROSException after its timeout.
@@ -330,6 +341,8 @@ install(PROGRAMS scripts/client.py DESTINATION lib/${PROJECT_NAME})
 
 # %% 07.6 wrong: no rule | hint: The install rule is missing.
 replace("\n\ncatkin_install_python( … BIN_DESTINATION}\n)", "")
+# %% 07.6 wrong: copied by CMake, without a rule | hint: The install rule is missing.
+replace("catkin_install_python( … BIN_DESTINATION}\n)", "file(COPY scripts/server.py scripts/client.py DESTINATION ${CMAKE_BINARY_DIR}/../install/lib/my_geometry)")
 # %% 07.6 wrong: the client is missing | hint: . List both scripts after PROGRAMS.
 replace(" scripts/client.py", "")
 # %% 07.6 wrong: a misspelt variable | hint: rosrun does not search the
@@ -412,6 +425,11 @@ replace("# my_geometry\n", "my_geometry\n")
 # %% 07.7 wrong: no code block | hint: Write a line ``` above
 replace("```bash\n", "", times=2)
 replace("```\n", "", times=2)
+# %% 07.7 wrong: everything is in a comment of HTML | hint: Write a line ``` above
+replace("# my_geometry\n", "# my_geometry\n<!--")
+replace("8.9\n```", "8.9\n```\n-->")
+# %% 07.7 wrong: a command that is only printed | hint: The command that builds the package
+replace("catkin_make", "echo catkin_make")
 # %% 07.7 wrong: only comments | hint: In the code block, each line begins
 replace("catkin_make\nsource", "# catkin_make\n# source")
 replace("rosrun my_geometry server.py", "# rosrun my_geometry server.py")
@@ -523,6 +541,9 @@ replace("    for _ in range(int(sys.argv[1])):", "    for _ in range(1):")
 replace("range(int(sys.argv[1]))", "range(int(sys.argv[1]) + 1)")
 # %% 07.10 wrong: always the same number | hint: The numbers are not random.
 replace("random.randint(0, 1)", "1")
+# %% 07.10 wrong: a repeated pattern | hint: The numbers are not random.
+replace("for _ in range", "for count in range")
+replace("random.randint(0, 1)", "int(count % 4 != 2)")
 # %% 07.10 wrong: prints the state only | hint: The output is wrong. For
 replace('f"{number}: {name_state(number).state}"', "name_state(number).state")
 # %% 07.10 wrong: another service | hint: The client does not end. Check

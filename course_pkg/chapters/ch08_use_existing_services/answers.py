@@ -95,6 +95,11 @@ replace("in rosservice.get_service_list():", "in NAMES:")
 # %% 08.1 wrong: calls the services | hint: The function called the services to find their type
 replace("            if rosservice", "            cls = rosservice.get_service_class_by_name(name)\n            rospy.ServiceProxy(name, cls)()\n            if rosservice")
 replace("except rosservice.ROSServiceIOException", "except Exception")
+# %% 08.1 wrong: calls the services, but not in the first call | hint: The function called the services to find their type
+based_on("calls the services")
+replace("def services_of(kind):", "def services_of(kind, runs=[]):")
+replace("            rospy.ServiceProxy(name, cls)()", "            runs and rospy.ServiceProxy(name, cls)()")
+replace("    return names", "    runs.append(kind)\n    return names")
 # %% 08.1 wrong: an empty string | hint: The list contains an empty string.
 replace("    return names", '    return names or [""]')
 
@@ -158,6 +163,8 @@ replace("str(error)", "error")
 replace("str(error)", '"it does not work"')
 # %% 08.2 wrong: success although it failed | hint: The call of /on_off failed
 replace("success=False", "success=True")
+# %% 08.2 wrong: success if the lamp cannot be switched off | hint: The call of /on_off failed
+replace("success=False", "success=not request.data")
 # %% 08.2 wrong: any response is a success | hint: The lamp responded with the
 replace('success=state == ("ON" if request.data else "OFF")', "success=True")
 # %% 08.2 wrong: the wanted state | hint: The message is the wanted
@@ -296,6 +303,18 @@ replace(' if answer.success else "was there"', "")
 # %% 08.3 wrong: with a capital letter | hint: Write the string exactly as
 replace('"moved"', '"Moved"')
 
+# %% 08.3 wrong: a thread calls set again | hint: The function called `set` more than
+import threading
+
+
+def move(switch, to_open):
+    turn = rospy.ServiceProxy(f"{switch}/set", SetBool)
+    threading.Timer(0.05, turn, [to_open]).start()
+    answer, stands = turn(to_open), rospy.ServiceProxy(f"{switch}/report", Trigger)().message
+    if stands != ("open" if to_open else "closed"):
+        return "failed"
+    return "moved" if answer.success else "was there"
+
 # %% 08.3 wrong: compares two reports | hint: use the field `success`, not
 def move(switch, to_open):
     report = rospy.ServiceProxy(f"{switch}/report", Trigger)
@@ -381,6 +400,8 @@ import subprocess
 def call_line(service, fields):
     return subprocess.list2cmdline(["rosservice", "call", service, json.dumps(fields)])
 
+# %% 08.4 wrong: another command makes the fields | hint: A program other than rosservice makes the call.
+replace("{shlex.quote(json.dumps(fields))}", '\\"$(echo {shlex.quote(json.dumps(fields))})\\"')
 # %% 08.4 wrong: leaves inner dicts out | hint: A field in an inner
 replace("json.dumps(fields)", "json.dumps({name: value for name, value in fields.items() if not isinstance(value, dict)})")
 # %% 08.4 wrong: a program in Python makes the call | hint: A program other than rosservice makes the call.
@@ -445,6 +466,9 @@ replace("request = cls … )(request)", "return rospy.ServiceProxy(service, cls)
 # %% 08.5 wrong: leaves unknown fields out | hint: The function ignored a field name
 replace("()", "()\n    known = {name: fields[name] for name in request.__slots__ if name in fields}")
 replace("[fields]", "[known]")
+# %% 08.5 wrong: an error only for one unknown name | hint: The function ignored a field name
+based_on("leaves unknown fields out")
+replace("{name: fields[name] for name in request.__slots__ if name in fields}", '{name: fields[name] for name in fields if name in request.__slots__ or name == "dat"}')
 # %% 08.5 wrong: as a dict | hint: The function returned a dict
 replace("cls =", "kind =")
 replace("cls._request_class", "kind._request_class")
@@ -519,6 +543,12 @@ replace('else "another definition"', 'else "another definition")')
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return headers["md5sum"] == kind._md5sum')
 # %% 08.6 wrong: calls it | hint: Use only get_service_uri and
 replace('return "ok" if', "rospy.ServiceProxy(service, kind)(kind._request_class())\n    return \"ok\" if")
+# %% 08.6 wrong: calls it, but not in the first call | hint: Use only get_service_uri and
+replace("def diagnose(service, kind):", "def diagnose(service, kind, runs=[]):")
+replace('return "ok" if', """if runs and headers["md5sum"] == kind._md5sum:
+        rospy.ServiceProxy(service, kind)()
+    runs.append(service)
+    return "ok" if""")
 # %% 08.6 wrong: the sum of the request | hint: The MD5 sums are equal
 replace("kind._md5sum", "kind._request_class._md5sum")
 # %% 08.6 wrong: the test for None the wrong way round | hint: so the client can connect

@@ -7,11 +7,13 @@ submission contains only the cells of the notebook.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from course_pkg.checking.commands.folder import Folder, Running
 from course_pkg.checking.context import CheckContext
+from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Finished
 from course_pkg.errors import CheckError
 from course_pkg.workspace import Fault, explain
@@ -71,12 +73,25 @@ class BuiltPackage:
         """
         return self.folder.start("bash", "-c", f". {setup} && exec {line}", worded=worded or line)
 
-    def md5(self, type_name: str) -> tuple[str, str]:
-        """Import a service type in Python; return (its MD5 sum, ""), or ("", the error output)."""
-        name = self.package.name
-        line = f"python3 -c 'from {name}.srv import {type_name}; print({type_name}._md5sum)'"
-        done = self.run(line)
-        return (done.out.strip(), "") if done.status == 0 else ("", (done.out + done.err).strip())
+    def md5(self, type_name: str, request: Message = None) -> tuple[str, str]:
+        """Import a service type in Python; return (its MD5 sum, ""), or ("", the error output).
+
+        If `request` is given, the type must serialise the same request with the same result. Its fields have
+        to be numbers.
+        """
+        line = f"from {self.package.name}.srv import {type_name}; print({type_name}._md5sum)"
+        values = [] if request is None else [getattr(request, name) for name in request.__slots__]
+        body = io.BytesIO()
+        if request is not None:
+            request.serialize(body)
+        sends = f"import io; b = io.BytesIO(); {type_name}._request_class(*{values}).serialize(b)"
+        code = line if request is None else f"{line}; {sends}; print(b.getvalue().hex())"
+        done = self.folder.command(
+            "bash", "-c", f". {SETUP} && python3 -c '{code}'", worded=f"python3 -c '{line}'"
+        )
+        md5, _, sent = done.out.strip().partition("\n")
+        right = done.status == 0 and sent == body.getvalue().hex()
+        return (md5, "") if right else ("", (done.out + done.err).strip())
 
 
 def built(

@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 
 from course_pkg.ros.protocol.json_channel import Json
 
 OPERATORS = "();<>|&"
+
+
+def substitutes(line: str) -> bool:
+    """Return whether bash runs another command for a part of `line`: a $(…), a `…` or a <(…).
+
+    The text in single quotes and each character after a backslash are ignored, because bash replaces nothing
+    there.
+    """
+    quoted = re.compile(r"""\\.|'[^']*'|("(?:\\.|[^"\\])*")""", re.DOTALL)
+    bare = quoted.sub(lambda found: re.sub(r"\\.", "", found[1] or ""), line)
+    return re.search(r"\$\(|`|[<>]\(", bare) is not None
 
 
 def commands_of(line: Json) -> list[list[str]]:

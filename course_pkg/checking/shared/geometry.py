@@ -7,6 +7,19 @@ from course_pkg.checking.context import CheckContext
 from course_pkg.checking.plain_values import Message
 
 
+def random_boxes(context: CheckContext) -> list[list[float]]:
+    """Return the length, the width and the height of random boxes.
+
+    The first box has the size of a table. After it, very small and large boxes, boxes with whole numbers, and
+    a cube follow in a random order, so that a server for boxes of one size fails.
+    """
+    sizes = [(0.5, 9.0, 2)] * context.random.integer(2, 4)
+    sizes += [(0.02, 0.4, 3), (12.0, 900.0, 2), (1.0, 99.0, 0)]
+    boxes = [context.random.numbers(3, low, high, digits=digits) for low, high, digits in sizes]
+    boxes.append([context.random.number(0.5, 90.0)] * 3)
+    return [boxes[0], *context.random.shuffled(boxes[1:])]
+
+
 def expect_geometry(
     context: CheckContext,
     response: Message,

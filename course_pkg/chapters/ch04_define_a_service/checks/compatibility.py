@@ -16,6 +16,7 @@ TYPES = (
     "Compare the MD5 sums of both texts."
 )
 NUMBERS = ("int8", "int16", "int32", "uint16", "float32", "float64")
+OTHERS = ("bool", "string", "time", "uint8[]", "float64[4]")
 
 
 @dataclass(frozen=True)
@@ -63,16 +64,19 @@ def who_talks_to_whom(context: CheckContext) -> None:
 
 
 def _pairs(context: CheckContext) -> list[Pair]:
-    names = [context.random.word() for _ in range(5)]
-    kinds = context.random.shuffled(NUMBERS)[:5]
+    names = [_name(context) for _ in range(5)]
+    kinds = [*context.random.shuffled(NUMBERS)[:4], context.random.choice(OTHERS)]
     value = context.random.integer(2, 90)
-    top = [f"int32 {context.random.word().upper()}={value}"]
+    top = [f"int32 {_name(context).upper()}={value}"]
+    top += [f"int16 {_name(context).upper()}={100 + each}" for each in range(context.random.integer(0, 2))]
     above = [f"{kind} {name}" for kind, name in zip(kinds[:3], names[:3], strict=True)]
     below = [f"{kind} {name}" for kind, name in zip(kinds[3:], names[3:], strict=True)]
     text = _text(top, above, below)
 
     def differs(assertion: str, other: str, hint: str) -> Pair:
         return Pair(f"not compatible: {assertion}", text, other, hint)
+
+    note = f"string NOTE={context.random.word()} # {context.random.word()}\n"
 
     def agrees(assertion: str, other: str) -> Pair:
         hint = (
@@ -139,7 +143,26 @@ def _pairs(context: CheckContext) -> list[Pair]:
             ),
         ),
         agrees("more spaces in a line", text.replace("=", " = ")),
+        Pair(
+            "compatible: a constant below the fields",
+            text,
+            _text([], [*above, *top], below),
+            "Only the constants are in another place, and the order of constants and fields is not part of "
+            "the MD5 sum. Compare the MD5 sums of both texts.",
+        ),
+        Pair(
+            "not compatible: another text after # in a string constant",
+            note + text,
+            f"{note.strip()}s\n{text}",
+            "In a string constant, the value is the whole text after the =, even if this text contains "
+            "a #. Do not remove comments: compare the MD5 sums.",
+        ),
     ]
+
+
+def _name(context: CheckContext) -> str:
+    """Return a random name of a field; its length and its characters differ from name to name."""
+    return context.random.word(context.random.integer(5, 9)) + context.random.choice(["", "", "_2", "_x"])
 
 
 def _text(top: list[str], above: list[str], below: list[str]) -> str:

@@ -38,7 +38,7 @@ def the_lamp(context: CheckContext) -> None:
     context.fulfilled(FIELDS)
     _constants(context, asked, given, text)
     folder = built(context, given=[FILE])
-    md5, printed = md5_in(folder)
+    md5, printed = md5_in(context, folder)
     context.require(
         "the MD5 sum is the same as in the description",
         holds=md5 == asked.md5,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from collections.abc import Sequence
 from dataclasses import replace
@@ -98,14 +99,26 @@ def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
     return folder
 
 
-def md5_in(folder: Folder) -> tuple[str, str]:
+def md5_in(context: CheckContext, folder: Folder) -> tuple[str, str]:
     """Return the MD5 sum of the type that was built in `folder`, and the output of a failed import.
 
-    If the import succeeds, the output is ""; if the import fails, the MD5 sum is "".
+    If the import succeeds, the output is ""; if the import fails, the MD5 sum is "". The type must also
+    serialise a random request, so that an object that has only the right MD5 sum is not enough.
     """
-    line = "python3 -c 'from lamp_services.srv import Lamp; print(Lamp._md5sum)'"
-    done = folder.command("bash", "-c", f". devel/setup.bash && {line}", within=10.0, worded=line)
-    return (done.out.strip(), "") if done.status == 0 else ("", done.out + done.err)
+    line = "from lamp_services.srv import Lamp; print(Lamp._md5sum)"
+    mode, *seconds = context.random.integers(4, 3, 255)
+    sends = f"Lamp._request_class(mode={mode}, seconds={seconds}).serialize(b); print(b.getvalue().hex())"
+    done = folder.command(
+        "bash",
+        "-c",
+        f". devel/setup.bash && python3 -c 'import io; b = io.BytesIO(); {line}; {sends}'",
+        within=10.0,
+        worded=f"python3 -c '{line}'",
+    )
+    body = io.BytesIO()
+    lamp_class()._request_class(mode=mode, seconds=seconds).serialize(body)
+    md5, _, sent = done.out.strip().partition("\n")
+    return (md5, "") if done.status == 0 and sent == body.getvalue().hex() else ("", done.out + done.err)
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:

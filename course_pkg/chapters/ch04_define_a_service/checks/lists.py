@@ -8,6 +8,7 @@ from course_pkg.workspace.cmake_messages import cmake_commands
 
 FILE = f"{PACKAGE}/CMakeLists.txt"
 CONFIGURATION = "devel/share/lamp_services/cmake/lamp_servicesConfig.cmake"
+GENERATED_LINE = "lamp_services_FOUND_CATKIN_PROJECT TRUE"  # catkin_package writes this text into the file.
 
 START = f"""%%writefile {FILE}
 cmake_minimum_required(VERSION 3.10)
@@ -36,7 +37,7 @@ def the_list_file(context: CheckContext) -> None:
     """Build the package with the student's file and the check's other files; then import the type."""
     folder = built(context, given=[FILE])
     text = context.source(f"file:{FILE}")
-    md5, printed = md5_in(folder)
+    md5, printed = md5_in(context, folder)
     context.require(
         "Python finds the type Lamp in lamp_services.srv",
         holds=bool(md5),
@@ -53,7 +54,7 @@ def the_list_file(context: CheckContext) -> None:
     context.fulfilled(GENERATED)
     context.require(
         "other packages can find this package",
-        holds=folder.command("test", "-f", CONFIGURATION).status == 0,
+        holds=folder.command("grep", "-q", GENERATED_LINE, CONFIGURATION).status == 0,
         expected="a file that catkin_package writes for other packages",
         actual="no such file",
         hints=_about(

@@ -103,7 +103,7 @@ def the_program(context: CheckContext) -> None:
         _serves(context, running, name, f"/{node}")
         lamp = context.service(name, lamp_class(), hints=FAULTS, timeout=5.0)
         context.fulfilled(STARTED)
-        modes = [1, 2, 0, *context.random.integers(9, 3, 255), 1, 2]
+        modes = [1, 2, 0, *context.random.integers(context.random.integer(7, 12), 3, 255), 1, 2]
         for mode in (1, 2, 0, *context.random.shuffled(modes)):
             _answers(context, lamp, mode)
         require_served_by_program(context, running, name)
@@ -180,8 +180,9 @@ def _own_line(printed: str) -> str:
 
 def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
     """Make a call with a random colour and random times, and compare the three fields of the response."""
-    red, green, blue = context.random.numbers(3, 0.1, 1.0)
-    seconds = context.random.numbers(context.random.integer(2, 40), 0.5, 9.0)
+    red, green, blue = context.random.numbers(3, 0.1, context.random.choice([1.0, 255.0]))
+    count, least = context.random.choice([2, 30, 90]), context.random.choice([0.5, -9.0])
+    seconds = context.random.numbers(count, least, 99.0, digits=context.random.integer(0, 2))
     colour = message_type("std_msgs/ColorRGBA").to_message({"r": red, "g": green, "b": blue, "a": 1.0})
     response = lamp(mode=mode, colour=colour, seconds=seconds)
     known = mode in (0, 1, 2)

@@ -7,6 +7,7 @@ from itertools import combinations
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.shared.geometry import random_boxes
 from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
@@ -33,11 +34,10 @@ NAMED = "Write the name and the value of the side in the error message."
     goals=[AREA, VOLUME],
 )
 def area_and_volume(context: CheckContext) -> None:
-    """Send some boxes; in each box, the length, the width and the height are different."""
+    """Send boxes of several sizes; in each box but one, the three sides are different."""
     get_geometry = context.service("/getGeometry", "course_pkg/geometry")
     require_served_by_notebook(context, "/getGeometry")
-    for _ in range(context.random.integer(5, 9)):
-        length, width, height = context.random.numbers(3, 0.5, 9.0)
+    for length, width, height in random_boxes(context):
         response = get_geometry(length=length, width=width, height=height)
         with context.goal(AREA):
             context.expect(
@@ -134,9 +134,10 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
             near=1e-3,
         )
     context.fulfilled(MEASURED)
-    # A float32 stores the negative sides exactly. No negative side is a whole number, so the error message
-    # must contain decimals.
-    depths = [*(-depth - 0.5 for depth in context.random.integers(2, 1, 49)), -1 / 1024]
+    # A float32 stores the negative sides exactly. No negative side has only one decimal, so the error message
+    # must contain at least two decimals.
+    fraction = context.random.choice([0.25, 0.375, 0.75])
+    depths = [*(-depth - fraction for depth in context.random.integers(2, 1, 49)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})
     for pair in combinations(SIDES, 2):

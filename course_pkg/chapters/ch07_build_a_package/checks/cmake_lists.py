@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from course_pkg.chapters.ch07_build_a_package.checks.packages import GEOMETRY, MY_GEOMETRY
 from course_pkg.checking import CheckContext, part
+from course_pkg.checking.plain_values import Message
 from course_pkg.checking.shared.catkin_package import BuiltPackage, built
 from course_pkg.types import compile_service
 from course_pkg.workspace.cmake_messages import cmake_commands
@@ -53,16 +54,17 @@ def the_build(context: CheckContext) -> None:
     # One field has a random name, so the student's CMakeLists.txt cannot contain the right MD5 sum.
     definition = f"float32 {context.random.word()}\n{GEOMETRY}"
     package = built(context, MY_GEOMETRY, examined=NAME, drawn={"srv/geometry.srv": definition})
-    md5 = compile_service("my_geometry/geometry", definition).md5
-    _has_type(context, package, text, md5)
+    kind = compile_service("my_geometry/geometry", definition)
+    md5, request = kind.md5, kind.cls._request_class(*context.random.numbers(4, 0.5, 9.0))
+    _has_type(context, package, text, md5, request)
     context.fulfilled(GENERATED)
     _target_waits(context, package, text, md5)
     context.fulfilled(WAITS)
     _tells_other_packages(context, package, text)
 
 
-def _has_type(context: CheckContext, package: BuiltPackage, text: str, wanted: str) -> None:
-    md5, printed = package.md5("geometry")
+def _has_type(context: CheckContext, package: BuiltPackage, text: str, wanted: str, request: Message) -> None:
+    md5, printed = package.md5("geometry", request)
     context.require(
         "Python finds the type my_geometry/geometry",
         holds=bool(md5),
@@ -127,7 +129,8 @@ def _why_not_waiting(text: str, *, unknown: bool) -> str:
 
 
 def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: str) -> None:
-    done = package.folder.command("grep", "-c", "message_runtime", CONFIGURATION)
+    # catkin_package writes the names after CATKIN_DEPENDS into the line "set(depends …".
+    done = package.folder.command("grep", "-c", "^set(depends .*message_runtime", CONFIGURATION)
     context.require(
         "a package that uses this package gets message_runtime, too",
         holds=done.status == 0,

@@ -9,7 +9,7 @@ from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY
 from course_pkg.chapters.ch07_build_a_package.checks.program import serves
 from course_pkg.chapters.ch07_build_a_package.checks.server import SERVER
 from course_pkg.checking import CheckContext, part
-from course_pkg.checking.shared.catkin_package import CATKIN_MAKE, LIMITS, BuiltPackage, built
+from course_pkg.checking.shared.catkin_package import LIMITS, BuiltPackage, built
 from course_pkg.workspace.cmake_messages import cmake_commands
 
 SCRIPTS = ("server.py", "client.py")
@@ -54,7 +54,9 @@ def the_install_rules(context: CheckContext) -> None:
 
 
 def _installs(context: CheckContext, package: BuiltPackage) -> None:
-    line = f"{LIMITS}; exec {CATKIN_MAKE} install"
+    # catkin_make has run CMake before, so that now, `make install` does the same as `catkin_make install`.
+    # Files in the folder `install` that were copied without an install rule are deleted first.
+    line = f"{LIMITS}; rm -rf install; exec make -C build install"
     done = package.folder.command("bash", "-c", line, within=INSTALLING, worded="catkin_make install")
     problem = re.search(r"cannot find\s+\"(?:\S*/src/)?([^\"]*)\"", done.out + done.err)
     context.require(

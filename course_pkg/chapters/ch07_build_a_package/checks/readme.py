@@ -9,9 +9,11 @@ import re
 
 from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.workspace.fault import without_comments
 
 FILE = MY_GEOMETRY.path("README.md")
 BLOCK = re.compile(r"^[ \t]*(?:```|~~~)[^\n`]*\n(.*?)^[ \t]*(?:```|~~~)", re.DOTALL | re.MULTILINE)
+PRINTED = re.compile(r"#|:\s|(?:echo|printf|true)\b")  # The shell executes no command in these lines.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)"
 FIELD = rf"\w+: *{NUMBER}"
 CALL = re.compile(
@@ -59,8 +61,9 @@ def the_readme(context: CheckContext) -> None:
         actual=first,
         hints="The title is missing. Write a line that begins with # and a space.",
     )
-    lines = [line.strip().removeprefix("$ ") for block in BLOCK.findall(text) for line in block.splitlines()]
-    commands = "\n".join(line for line in lines if not line.startswith("#"))
+    shown = without_comments(text)
+    lines = [line.strip().removeprefix("$ ") for block in BLOCK.findall(shown) for line in block.splitlines()]
+    commands = "\n".join(line for line in lines if not PRINTED.match(line))
     context.require(
         "it has commands in a code block",
         holds=bool(commands),

@@ -13,7 +13,7 @@ from course_pkg.chapters.ch07_build_a_package.checks.program import (
 from course_pkg.checking import ANYTHING, CheckContext, part
 from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.shared.catkin_package import built
-from course_pkg.checking.shared.geometry import expect_geometry
+from course_pkg.checking.shared.geometry import expect_geometry, random_boxes
 
 SERVER = Program("scripts/server.py", "SERVER_NODE", "/getGeometry")
 FILE = MY_GEOMETRY.path(SERVER.file)
@@ -48,8 +48,8 @@ def the_server(context: CheckContext) -> None:
         serves(context, running, package, SERVER, name, f"{space}/{SERVER.node}")
         measure = context.service(name, geometry_class(), timeout=5.0)
         context.fulfilled(STARTED)
-        for _ in range(3):
-            _answers(context, measure, *context.random.numbers(3, 0.5, 9.0))
+        for box in random_boxes(context):
+            _answers(context, measure, *box)
         length, width = context.random.numbers(2, 0.5, 9.0)
         _answers(context, measure, length, width, 0.0)
 

@@ -6,6 +6,8 @@ from course_pkg.chapters.ch08_use_existing_services.checks.example_calls import 
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.scripted_server import ScriptedServer
+from course_pkg.checking.result import Result
 
 IS_MESSAGE = """
 def is_message(function, *args):
@@ -77,11 +79,27 @@ def call_of_any_type(context: CheckContext) -> None:
     context.run("call_any", name, {}, hints=ERRORS).returned()
     former.leave()
     server = context.serve(name, "std_srvs/SetBool", lambda _: {"success": True})
-    wrong = context.run("call_any", name, {"dat": True})
+    strays = context.random.shuffled(["dat", context.random.word()])
+    for fields, stray in zip(({}, {"data": True}), strays, strict=True):
+        wrong = context.run("call_any", name, {**fields, stray: True})
+        _is_an_error(context, wrong, server, stray)
+    context.prepare(IS_MESSAGE)
+    whole = context.run(
+        "is_message", Its("call_any"), name, {"data": True}, worded="call_any()", hints=ERRORS
+    )
+    context.expect(
+        "the response is returned",
+        expected="a response",
+        actual="a response" if whole.returned() else "an object of a different type with the same values",
+        hints="The function returned a dict or a similar object. Return the object that the proxy returns.",
+    )
+
+
+def _is_an_error(context: CheckContext, wrong: Result, server: ScriptedServer, stray: str) -> None:
     context.require(
         "a field that the type does not have is an error",
         holds=bool(wrong.error) and not server.requests and not wrong.error.startswith("ROSServiceException"),
-        expected="an error about dat",
+        expected=f"an error about {stray}",
         actual=wrong.error or "no error, and a call without this field",
         hints=[
             (
@@ -95,16 +113,6 @@ def call_of_any_type(context: CheckContext) -> None:
                 "genpy, and do not catch its exception.",
             ),
         ],
-    )
-    context.prepare(IS_MESSAGE)
-    whole = context.run(
-        "is_message", Its("call_any"), name, {"data": True}, worded="call_any()", hints=ERRORS
-    )
-    context.expect(
-        "the response is returned",
-        expected="a response",
-        actual="a response" if whole.returned() else "an object of a different type with the same values",
-        hints="The function returned a dict or a similar object. Return the object that the proxy returns.",
     )
 
 

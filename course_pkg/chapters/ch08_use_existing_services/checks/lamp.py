@@ -47,13 +47,15 @@ def translate(context: CheckContext) -> None:
     context.fulfilled(OBEYED)
     for data in context.random.shuffled([True, False]):
         _disobeys(context, panel, data)
-    _refuses(context, panel)
+    for data in context.random.shuffled([True, False]):
+        _refuses(context, panel, data)
     for obeys in context.random.shuffled([True] * context.random.integer(1, 3) + [False] * 2):
         try_lamp = _obeys if obeys else _disobeys
         try_lamp(context, panel, context.random.choice([True, False]))
     context.fulfilled(COMPARED)
     context.absent(LAMP)
-    _fails(context, panel, "the lamp has no server", "unavailable", "timeout exceeded")
+    data = context.random.choice([True, False])
+    _fails(context, panel, data, "the lamp has no server", "unavailable", "timeout exceeded")
 
 
 def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
@@ -135,16 +137,16 @@ def _was_called_once(context: CheckContext, lamp: ScriptedServer) -> None:
         )
 
 
-def _refuses(context: CheckContext, panel: Service) -> None:
+def _refuses(context: CheckContext, panel: Service, data: bool) -> None:
     reason = f"{context.random.word()} is hot"
     lamp = context.serve(LAMP, KIND, lambda _: Refuse(reason))
-    _fails(context, panel, "the lamp refuses", reason)
+    _fails(context, panel, data, "the lamp refuses", reason)
     _was_called_once(context, lamp)
     lamp.leave()
 
 
-def _fails(context: CheckContext, panel: Service, failure: str, *reasons: str) -> None:
-    response = panel(data=True)
+def _fails(context: CheckContext, panel: Service, data: bool, failure: str, *reasons: str) -> None:
+    response = panel(data=data)
     context.expect(
         f"{failure}: success is False",
         expected=False,

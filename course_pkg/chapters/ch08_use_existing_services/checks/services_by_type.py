@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.plain_values import of_kind
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.types import compile_service
@@ -59,27 +60,18 @@ def find_by_type(context: CheckContext) -> None:
     servers = [context.serve(name, kind, lambda _: {}) for name in first]
     # The last part of this service name looks like the searched type, but the service has another type.
     misnamed = f"/{word}/{short}"
-    context.serve(misnamed, other, lambda _: {})
+    servers.append(context.serve(misnamed, other, lambda _: {}))
     for decoy in (f"{word}_pkg/{short}", f"{kind}Stamped"):
         made = compile_service(decoy, "---\nint32 found").cls
         context.serve(f"/{word}/{context.random.word()}", made, lambda _: {})
     _finds(context, kind, SOME, mine)
-    if any(server.requests for server in servers):
-        context.fail(
-            "it calls no service",
-            expected="no request",
-            actual="a request to each service",
-            hint=(
-                "The function called the services to find their types, and these calls started "
-                "the work of the servers. Use get_service_type instead."
-            ),
-        )
+    _calls_no_service(context, servers)
     context.fulfilled(FOUND)
     for place, hint in (("late", LATE), ("last", GONE)):
         if place == "last":
             context.absent(f"/{word}/dead", stale=True)
         name = f"/{context.random.word()}/{place}"
-        context.serve(name, kind, lambda _: {})
+        servers.append(context.serve(name, kind, lambda _: {}))
         mine.add(name)
         _finds(context, kind, hint, mine)
     ended = first[0]
@@ -96,6 +88,20 @@ def find_by_type(context: CheckContext) -> None:
             ([""], "The list contains an empty string. Return only the names of services."),
         ],
     )
+    _calls_no_service(context, servers)
+
+
+def _calls_no_service(context: CheckContext, servers: list[ScriptedServer]) -> None:
+    if any(server.requests for server in servers):
+        context.fail(
+            "it calls no service",
+            expected="no request",
+            actual="a request to a service",
+            hint=(
+                "The function called the services to find their types, and these calls started "
+                "the work of the servers. Use get_service_type instead."
+            ),
+        )
 
 
 def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], ended: str = "") -> None:

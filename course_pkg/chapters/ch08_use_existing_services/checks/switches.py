@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.plain_values import Fields, Message
 
 
@@ -133,11 +134,12 @@ class FakeSwitch:
 )
 def move_and_verify(context: CheckContext) -> None:
     """Call move() for switches that behave differently; request both positions of each kind of switch."""
-    for case in CASES:
-        for to_open in context.random.shuffled([True, False]):
-            _move(context, case, to_open)
-    for case in context.random.shuffled(CASES)[: context.random.integer(3, 5)]:
-        _move(context, case, context.random.choice([True, False]))
+    moves = [(case, to_open) for case in CASES for to_open in context.random.shuffled([True, False])]
+    again = context.random.shuffled(CASES)[: context.random.integer(3, 5)]
+    moves += [(case, context.random.choice([True, False])) for case in again]
+    settings = [_move(context, case, to_open) for case, to_open in moves]
+    for (_, to_open), setting in zip(moves, settings, strict=True):  # A thread can repeat a call later.
+        _is_set_once(context, setting, to_open)
 
 
 def _wrongly_set(to_open: bool) -> Hints:
@@ -166,7 +168,17 @@ def _wrong_outcome(case: Case, switch: FakeSwitch) -> Hints:
     ]
 
 
-def _move(context: CheckContext, case: Case, to_open: bool) -> None:
+def _is_set_once(context: CheckContext, setting: ScriptedServer, to_open: bool) -> None:
+    context.expect(
+        "`set` is called once, with the wanted position",
+        expected=[{"data": to_open}],
+        actual=setting.requests,
+        hints=_wrongly_set(to_open),
+    )
+
+
+def _move(context: CheckContext, case: Case, to_open: bool) -> ScriptedServer:
+    """Call move() for a new switch, and return the server of its service `set`."""
     name = f"/{context.random.word()}"
     switch = FakeSwitch(case, to_open is case.there, context.random.word())
     setting = context.serve(f"{name}/set", "std_srvs/SetBool", switch.handle_set)
@@ -175,15 +187,11 @@ def _move(context: CheckContext, case: Case, to_open: bool) -> None:
         "Call only the services `set` and `report` of the node. The name of `set` is f'{switch}/set'."
     )
     result = context.run("move", name, to_open, hints=[(matches("unavailable"), unavailable)]).returned()
-    context.expect(
-        "`set` is called once, with the wanted position",
-        expected=[{"data": to_open}],
-        actual=setting.requests,
-        hints=_wrongly_set(to_open),
-    )
+    _is_set_once(context, setting, to_open)
     context.expect(
         f"{case.name}: {case.expected}",
         expected=case.expected,
         actual=result,
         hints=_wrong_outcome(case, switch),
     )
+    return setting
