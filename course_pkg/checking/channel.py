@@ -3,7 +3,7 @@
 The client and the runner use a stream socket, with one JSON object of at most `LIMIT` bytes in each line. The
 runner never unpickles or evaluates received data.
 
-    client -> runner   {"protocol": 4, "check": "05.1"}            once, first
+    client -> runner   {"protocol": 5, "check": "05.1"}            once, first
     runner -> client   {"ask": 1, "do": "look", "name": "measure"}
     client -> runner   {"answer": 1, "kind": "function"}           or {"answer": 1, "wrong": "..."}
     ...                                                            as often as the check needs
@@ -25,6 +25,8 @@ The requests, their arguments, and the fields of the replies:
     poll     process                      status (null while the process runs)
     stop     process                      as for run; status is null if the process was still running
     ports    process                      ports (the TCP ports on which the command listens)
+    programs process                      programs (the SHA-256 sum and the name of each file that the
+                                          processes of the command execute)
 
 The connection is closed after a line that is too long, is not a JSON object, or replies to another request.
 The check runner then reports that the check has failed.
@@ -34,6 +36,7 @@ from __future__ import annotations
 
 import os
 import socket
+import threading
 from collections.abc import Mapping
 
 from course_pkg.errors import ChannelBroken, ChannelClosed, CheckError
@@ -41,7 +44,7 @@ from course_pkg.ros.protocol.json_channel import Json, JsonChannel
 from course_pkg.types import Plain
 from course_pkg.waiting import at_this_load
 
-PROTOCOL = 4
+PROTOCOL = 5
 LIMIT = 1 << 20  # A line has at most this number of bytes.
 LONGEST = 400  # A report shows at most this number of characters of a received message.
 
@@ -52,6 +55,7 @@ class Channel(JsonChannel):
     def __init__(self, sock: socket.socket) -> None:
         super().__init__(sock, LIMIT)
         self._asked = 0
+        self._asking = threading.Lock()  # A server of a check may ask while the check waits in its thread.
 
     def ask(self, do: str, *, timeout: float, **arguments: Plain) -> dict[str, Json]:
         """Send the request `do` to the check client, and return its reply.
@@ -59,11 +63,13 @@ class Channel(JsonChannel):
         The time limit is `timeout` s, or longer on a busy machine. Raises the exceptions of JsonChannel, and
         ChannelBroken if the reply belongs to another request.
         """
-        self._asked += 1
         limit = at_this_load(timeout)
-        self.send({"ask": self._asked, "do": do, **arguments}, limit)
-        reply = self.receive(limit)
-        if type(reply.get("answer")) is not int or reply["answer"] != self._asked:
+        with self._asking:
+            self._asked += 1
+            asked = self._asked
+            self.send({"ask": asked, "do": do, **arguments}, limit)
+            reply = self.receive(limit)
+        if type(reply.get("answer")) is not int or reply["answer"] != asked:
             raise ChannelBroken(f"the kernel sent an answer to a different request: {str(reply)[:80]}")
         if "wrong" in reply:
             raise ChannelBroken(f"the kernel could not answer the request {do!r}: {reply['wrong']}")

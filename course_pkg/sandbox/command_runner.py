@@ -20,7 +20,7 @@ from course_pkg.sandbox.linux.namespaces import be_unreadable
 from course_pkg.types import Plain
 
 OWN = "/tmp"  # noqa: S108 -- only this process uses it, in its sandbox
-COMMANDS = frozenset({"folder", "run", "start", "poll", "stop", "ports"})
+COMMANDS = frozenset({"folder", "run", "start", "poll", "stop", "ports", "programs"})
 
 
 def is_command(do: object, name: object) -> bool:

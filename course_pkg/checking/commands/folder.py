@@ -34,6 +34,8 @@ class Folder:
         self._doing = doing
         reply = channel.ask("folder", timeout=SLACK, files=files, texts=texts)
         self._number = reply.get("folder")
+        # The SHA-256 sum of the only program that the commands may execute, or "" for all programs.
+        self.only = ""
 
     def command(self, *argv: str, within: float = 10.0, worded: str = "") -> Finished:
         """Run a command in this folder, for at most `within` s, or longer on a busy machine.
@@ -55,15 +57,17 @@ class Folder:
         number = reply.get("process")
         if not isinstance(number, int):
             raise CheckError("The kernel could not start a command of the check. Restart the kernel.")
-        return Running(self._channel, number, lambda: self._doing(worded or " ".join(argv)))
+        return Running(self._channel, number, lambda: self._doing(worded or " ".join(argv)), self.only)
 
 
 class Running:
     """A command, such as a node, that runs until it is stopped."""
 
-    def __init__(self, channel: Channel, number: int, show: Callable[[], None]) -> None:
+    def __init__(self, channel: Channel, number: int, show: Callable[[], None], only: str = "") -> None:
         self._channel = channel
         self._number = number
+        self._only = only
+        self.other = ""  # The name of another program than the only allowed program, found by examine().
         self.show = show  # After a call of show(), reports show this command as the last command.
 
     @property
@@ -76,6 +80,16 @@ class Running:
         """Return whether the command, or one of its child processes, listens at the port in `uri`."""
         ports = self._channel.ask("ports", timeout=at_this_load(SLACK), process=self._number).get("ports")
         return isinstance(ports, list) and port_of(uri) in ports
+
+    def examine(self) -> None:
+        """Look at the files that the processes of the command execute; keep the name of a forbidden one."""
+        if self._only and not self.other:
+            reply = self._channel.ask("programs", timeout=at_this_load(SLACK), process=self._number)
+            programs = reply.get("programs")
+            found = (
+                [each for each in programs if isinstance(each, list)] if isinstance(programs, list) else []
+            )
+            self.other = next((str(name) for digest, name in found if digest != self._only), "")
 
     def stop(self) -> Finished:
         """End the command.

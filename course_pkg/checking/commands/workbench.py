@@ -77,6 +77,10 @@ class CommandFolders:
         """Return the TCP ports on which a running command listens."""
         return {"ports": self._running[process].ports}
 
+    def programs(self, process: int) -> Reply:
+        """Return [SHA-256 sum, name] of each file that the processes of a running command execute."""
+        return {"programs": self._running[process].programs}
+
     def close(self) -> None:
         """End the running commands, and delete the folders."""
         self._open.close()
@@ -101,6 +105,11 @@ class _Running:
     def ports(self) -> list[Json]:
         """The TCP ports on which the command and its descendants listen."""
         return [*sorted(self._process.listening_ports())]
+
+    @property
+    def programs(self) -> list[Json]:
+        """[SHA-256 sum, name] of each file that the command and its descendants execute."""
+        return [[*each] for each in sorted(self._process.programs())]
 
     def stop(self) -> Reply:
         """End the command with SIGINT, or with SIGKILL if necessary; return its result.

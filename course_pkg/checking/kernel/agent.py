@@ -78,6 +78,7 @@ class KernelAgent:
             "poll": self._commands.poll,
             "stop": self._commands.stop,
             "ports": self._commands.ports,
+            "programs": self._commands.programs,
         }
 
     def reply(self, request: Mapping[str, Json]) -> Reply:

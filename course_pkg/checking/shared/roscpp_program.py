@@ -1,17 +1,23 @@
-"""Compile a roscpp program, and inspect it: it must not start another program."""
+"""Compile a roscpp program, and inspect it: it must not start another program.
+
+A program can hide a call that starts another program. Therefore, require_no_other_program() also looks at the
+files that the processes of the program execute.
+"""
 
 from __future__ import annotations
 
 import re
 import shlex
 
-from course_pkg.checking.commands.folder import Folder
+from course_pkg.checking.commands.folder import Folder, Running
 from course_pkg.checking.context import CheckContext
 from course_pkg.errors import CheckError, ToolMissing
 from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.cpp_support import compile_command
 
 COMPILES = "the compiler accepts the file"
+ITSELF = "the C++ program does the work itself"
+STARTS_ANOTHER = "The program contains a call that can start another program. Use only functions of roscpp."
 
 # This pattern matches an undefined symbol in the output of `readelf`. The program uses this symbol, but a
 # library defines it.
@@ -87,8 +93,24 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
     )
     if starts or hidden.out.strip() != "0":
         context.fail(
-            "the C++ program does the work itself",
+            ITSELF,
             expected="no other program or library that is started or loaded",
             actual=f"calls of {', '.join(starts)}" if starts else "a direct system call",
-            hint="The program contains a call that can start another program. Use only functions of roscpp.",
+            hint=STARTS_ANOTHER,
+        )
+    folder.only = folder.command("sha256sum", program).out.partition(" ")[0]
+
+
+def require_no_other_program(context: CheckContext, running: Running) -> None:
+    """Assert that the processes of `running` execute only the compiled program of their folder.
+
+    Other files that Running.examine() found earlier also count.
+    """
+    running.examine()
+    if running.other:
+        context.fail(
+            ITSELF,
+            expected="a process that executes only the compiled program",
+            actual=f"a process that executes {running.other}",
+            hint=STARTS_ANOTHER,
         )

@@ -6,7 +6,9 @@ even after SIGKILL, the supervisor ends the command and cleans up.
 
 from __future__ import annotations
 
+import hashlib
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -18,8 +20,11 @@ from pathlib import Path
 from typing import IO
 
 from course_pkg.errors import GraphError
+from course_pkg.ros.process.supervisor import descendants
 
 PROGRAM = Path(__file__).with_name("supervisor.py")
+# A program that loads this library executes Python code in its own process.
+INTERPRETER = re.compile(r"(?<=/)libpython[^/\s]*$", re.MULTILINE)
 
 
 class SupervisedProcess:
@@ -96,6 +101,17 @@ class SupervisedProcess:
         """Return the TCP ports on which the command and its descendants listen."""
         return listening_ports(self.pid)
 
+    def programs(self) -> set[tuple[str, str]]:
+        """Return (SHA-256 sum, name) of each file that the command and its descendants execute.
+
+        A loaded library of an interpreter (libpython) is also in the result; its sum is an empty string. The
+        result is empty if the kernel does not report the executed files, for example in an emulator.
+        """
+        with suppress(OSError):
+            if os.path.samefile(f"/proc/{self._process.pid}/exe", sys.executable):
+                return {each for pid in descendants(self._process.pid) for each in _executed(pid)}
+        return set()
+
     def end(self, grace: float = 2.0) -> None:
         """End the command and all its descendants with SIGINT, and kill them after `grace` s.
 
@@ -135,6 +151,19 @@ def listening_ports(pid: int) -> frozenset[int]:
                 sockets = each.net_connections("tcp")
                 ports.update(sock.laddr.port for sock in sockets if sock.status == psutil.CONN_LISTEN)
     return frozenset(ports)
+
+
+def _executed(pid: int) -> list[tuple[str, str]]:
+    """Return (SHA-256 sum, name) of the files that a process executes; if it has ended, an empty list."""
+    try:
+        name = Path(os.readlink(f"/proc/{pid}/exe")).name
+        digest = hashlib.sha256(Path(f"/proc/{pid}/exe").read_bytes()).hexdigest()
+        interpreter = INTERPRETER.search(Path(f"/proc/{pid}/maps").read_text("utf-8", "replace"))
+    except (FileNotFoundError, ProcessLookupError):
+        return []
+    except OSError:  # The process has made its data in /proc unreadable.
+        return [("", "a hidden program")]
+    return [(digest, name), *([("", interpreter[0])] if interpreter else [])]
 
 
 def _program(

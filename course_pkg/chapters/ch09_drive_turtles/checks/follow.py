@@ -88,6 +88,7 @@ class Driver:
     def _act(self, service: str, *, refuse: bool) -> Act:
         self.calls.append(service)
         self.called = time.monotonic()
+        self.world.examine()
         acts: dict[str, Act] = {
             "spawn": {"name": self.name},
             "toggle_forward": {},

@@ -13,7 +13,7 @@ from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import (
 )
 from course_pkg.checking import ANYTHING, CheckContext, part
 from course_pkg.checking.commands.folder import Running
-from course_pkg.checking.peers.scripted_server import Refuse
+from course_pkg.checking.peers.scripted_server import Act, Refuse, Script
 from course_pkg.checking.result import Finished
 from course_pkg.errors import CheckError
 from course_pkg.ros.protocol.json_channel import Json
@@ -93,16 +93,26 @@ def _served_late(context: CheckContext, world: World, running: Running) -> tuple
     began = world.begins(running)
     wait_until(lambda: running.status is not None, at_this_load(WITHOUT_A_WAIT), 0.05)
     world.runs_own_program()
-    server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": "MyTurtle"})
+    server = context.serve(world.name("spawn"), SPAWN, _answer(world, {"name": "MyTurtle"}))
     done = world.ends(running, LIMIT)
     server.leave()
     return began, done
 
 
+def _answer(world: World, act: Act) -> Script:
+    """Return a script that looks at the student's program during each call, and then does `act`."""
+
+    def answer(_: object) -> Act:
+        world.examine()
+        return act
+
+    return answer
+
+
 def _prints_the_name(context: CheckContext, world: World) -> None:
     """Respond with another name than the requested name; assert that the program prints this name."""
     given = context.random.word()
-    server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": given})
+    server = context.serve(world.name("spawn"), SPAWN, _answer(world, {"name": given}))
     with world.run() as running:
         wait_until(lambda: bool(server.requests) or running.status is not None, STARTING, 0.05)
         done = world.ends(running, 3.0)
@@ -209,7 +219,8 @@ def _spawns_in_the_simulator(context: CheckContext, world: World) -> None:
 
 
 def _is_refused(context: CheckContext, world: World) -> None:
-    server = context.serve(world.name("spawn"), SPAWN, lambda _: Refuse("there is a turtle MyTurtle"))
+    refuses = _answer(world, Refuse("there is a turtle MyTurtle"))
+    server = context.serve(world.name("spawn"), SPAWN, refuses)
     with world.run() as running:
         done = world.ends(running, STARTING)
     server.leave()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram
 from course_pkg.checking import CheckContext
@@ -13,6 +14,7 @@ from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.catkin_package import BuiltPackage
 from course_pkg.checking.shared.own_program import require_own_nodes
+from course_pkg.checking.shared.roscpp_program import require_no_other_program
 from course_pkg.waiting import wait_until
 from course_pkg.workspace import explain
 
@@ -48,15 +50,27 @@ class World:
         topics = (*TOPICS, f"{turtle}/cmd_vel") if turtle else TOPICS
         remapped = " ".join(f"/{name}:={self.name(name)}" for name in (*services, *topics))
         self._arguments = f"__ns:={self._space} {remapped}"
+        self._running: Running | None = None
 
     def name(self, relative: str) -> str:
         """Return the full name for the relative name `relative`, such as "turtle1/pose"."""
         return f"{self._space}/{relative}"
 
-    def run(self, arguments: str = "") -> Running:
-        """Start the student's program with arguments such as "_level:=5"; a `with` block ends the program."""
+    @contextmanager
+    def run(self, arguments: str = "") -> Iterator[Running]:
+        """Run the student's program with arguments such as "_level:=5" during a `with` block.
+
+        A compiled program must not become another program, and must not start one.
+        """
         line = f"{self._program.line} {self._arguments} {arguments}"
-        return self._copy.start(line, worded=self._program.line)
+        with self._copy.start(line, worded=self._program.line) as self._running:
+            yield self._running
+            require_no_other_program(self._context, self._running)
+
+    def examine(self) -> None:
+        """Look at the files that the student's program executes; a server of a check may call this method."""
+        if self._running:
+            self._running.examine()
 
     def simulator(self) -> Running:
         """Start the simulator; a `with` block ends the simulator."""
@@ -65,6 +79,7 @@ class World:
 
     def service(self, relative: str, kind: str, hints: Hints = ()) -> Service:
         """Return a proxy that calls a service of the student's program."""
+        self.examine()
         return self._context.service(self.name(relative), kind, hints=hints, timeout=5.0)
 
     def appears(self, relative: str, within: float = STARTING) -> bool:
@@ -107,7 +122,9 @@ class World:
         self.runs_own_program()
 
     def runs_own_program(self) -> None:
-        """Assert that the node is not one of the course's own turtle programs."""
+        """Assert that the node is not one of the course's own turtle programs, and no other program."""
+        if self._running:
+            require_no_other_program(self._context, self._running)
         require_own_nodes(self._context, self._space, [self.name(SIMULATOR)])
 
     def _serves_not(self, running: Running, assertion: str, missing: list[str]) -> None:

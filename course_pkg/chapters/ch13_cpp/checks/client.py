@@ -5,13 +5,17 @@ from __future__ import annotations
 import itertools
 import re
 import time
+from collections.abc import Callable
+from dataclasses import dataclass
 from threading import Timer
 
 from course_pkg.chapters.ch13_cpp.checks.compiled_program import BOX, PACKAGE, compiled
 from course_pkg.checking import CheckContext, Refuse, part
-from course_pkg.checking.commands.folder import Folder
-from course_pkg.checking.peers.scripted_server import ScriptedServer
+from course_pkg.checking.commands.folder import Folder, Running
+from course_pkg.checking.peers.scripted_server import Act, ScriptedServer
 from course_pkg.checking.result import Finished
+from course_pkg.checking.shared.roscpp_program import require_no_other_program
+from course_pkg.waiting import at_this_load, wait_until
 
 FILE = f"{PACKAGE}/src/patient_client.cpp"
 WAIT = 2.0  # WAIT is the time in s for which the client waits for the service.
@@ -19,6 +23,7 @@ TRIES = 3  # The client makes at most this many calls.
 SLACK = 2.5  # On a busy machine, a run may take this many s longer.
 PAUSE = 0.045  # Two calls must be at least this many s apart. The exercise requires 0.05 s.
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+POLL = 0.03  # POLL is the time in s between two looks at the client.
 LIMIT = 5.0  # LIMIT is the time in s after which the check stops the program.
 
 MILLISECONDS = (
@@ -45,6 +50,37 @@ int main(int argc, char** argv) {{
 REPEATS = "Call the service at most 3 times, with pauses. End with exit status 1 after the last refusal."
 
 
+@dataclass
+class Client:
+    """The student's client; during each call, its server looks at the files that the client executes."""
+
+    context: CheckContext
+    folder: Folder
+    running: Running | None = None
+
+    def serve(self, name: str, act: Callable[[], Act]) -> ScriptedServer:
+        """Serve `name` until the check ends; `act` returns the action for a call."""
+
+        def answer(_: object) -> Act:
+            if self.running:
+                self.running.examine()
+            return act()
+
+        return self.context.serve(name, BOX, answer)
+
+    def run(self, name: str, sides: list[float]) -> Finished:
+        """Run the client for at most LIMIT s, without its error output; it must not start a program."""
+        words = [str(side) for side in sides]
+        quiet = ["sh", "-c", 'exec "$0" "$@" 2> /dev/null', "./program", *words, f"/box:={name}"]
+        with self.folder.start(*quiet, worded=f"patient_client {' '.join(words)}") as running:
+            self.running = running
+            wait_until(lambda: running.status is not None, at_this_load(LIMIT), POLL)
+            done = running.stop()
+        if running.other:
+            require_no_other_program(self.context, running)
+        return done
+
+
 @part(
     "13.3",
     points=3,
@@ -62,20 +98,22 @@ def patient_client(context: CheckContext) -> None:
 
     Run the client also without a server.
     """
-    folder = compiled(context, FILE)
-    shapes = _prints_the_answer(context, folder)
-    calls = _asks_again(context, folder)
-    _pauses_between_calls(context, calls, _gives_up_after_refusals(context, folder, shapes))
+    client = Client(context, compiled(context, FILE))
+    shapes = _prints_the_answer(context, client)
+    calls = _asks_again(context, client)
+    _prints_more_answers(context, client)
+    calls_in_vain = _gives_up_after_refusals(context, client, shapes)
+    _pauses_between_calls(context, calls, calls_in_vain)
     context.fulfilled(REPEATS)
-    _waits_for_a_late_server(context, folder)
-    _gives_up_without_a_server(context, folder, shapes)
+    _waits_for_a_late_server(context, client)
+    _gives_up_without_a_server(context, client, shapes)
 
 
-def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
+def _prints_the_answer(context: CheckContext, client: Client) -> set[str]:
     """Run the client; return the printed lines that contain the volume, with # in place of each number."""
     name, sides, volume = _random_box(context)
-    server = context.serve(name, BOX, lambda _: {"volume": volume})
-    finished = _run(folder, name, sides)
+    server = client.serve(name, lambda: {"volume": volume})
+    finished = client.run(name, sides)
     _prints(context, finished, volume, "if the server responds, the volume is printed")
     given = [round(float(value), 2) for value in list(server.requests[0].values())]
     context.expect(
@@ -91,31 +129,40 @@ def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
         ),
     )
     shapes = {NUMBER.sub("#", line) for line in _lines(finished.out) if volume in _numbers(line)}
-    _prints_a_volume_of_0(context, folder)
+    _prints_a_volume_of_0(context, client)
+    _prints_more_answers(context, client)
     return shapes
 
 
-def _prints_a_volume_of_0(context: CheckContext, folder: Folder) -> None:
+def _prints_a_volume_of_0(context: CheckContext, client: Client) -> None:
     """Respond with the volume 0.
 
     The volume 0 does not show whether there was a response, so the program has to use the return value of
     call().
     """
     name, sides, _ = _random_box(context)
-    context.serve(name, BOX, lambda _: {"volume": 0.0})
+    client.serve(name, lambda: {"volume": 0.0})
     _prints(
         context,
-        _run(folder, name, sides),
+        client.run(name, sides),
         0.0,
         "if the server responds, the volume is printed",
         "A response with the volume 0 is valid. Test the return value of call(), not the volume.",
     )
 
 
-def _asks_again(context: CheckContext, folder: Folder) -> list[float]:
+def _prints_more_answers(context: CheckContext, client: Client) -> None:
+    """Run the client a random number of times, so that it cannot expect a situation by counting the runs."""
+    for _ in range(context.random.integer(0, 2)):
+        name, sides, volume = _random_box(context)
+        client.serve(name, lambda volume=volume: {"volume": volume})
+        _prints(context, client.run(name, sides), volume, "if the server responds, the volume is printed")
+
+
+def _asks_again(context: CheckContext, client: Client) -> list[float]:
     name, sides, volume = _random_box(context)
-    server, calls = _refusing(context, name, TRIES - 1, volume)
-    finished = _run(folder, name, sides)
+    server, calls = _refusing(client, name, TRIES - 1, volume)
+    finished = client.run(name, sides)
     assertion = "if the server refuses twice, the third call gets the response"
     if not _numbers(finished.out) or finished.status != 0 or len(server.requests) != TRIES:
         count = len(server.requests)
@@ -156,10 +203,10 @@ def _why_not_third(finished: Finished, count: int) -> str:
     )
 
 
-def _gives_up_after_refusals(context: CheckContext, folder: Folder, shapes: set[str]) -> list[float]:
+def _gives_up_after_refusals(context: CheckContext, client: Client, shapes: set[str]) -> list[float]:
     name, sides, _ = _random_box(context)
-    server, calls = _refusing(context, name, 1000, 0.0)
-    finished = _run(folder, name, sides)
+    server, calls = _refusing(client, name, 1000, 0.0)
+    finished = client.run(name, sides)
     assertion = "if the server always refuses, the program ends with 1 after three calls and prints no volume"
     good = finished.status == 1 and not _volumes(finished.out, shapes) and len(server.requests) == TRIES
     count = len(server.requests)
@@ -186,11 +233,11 @@ def _why_not_one(finished: Finished, count: int) -> str:
     )
 
 
-def _waits_for_a_late_server(context: CheckContext, folder: Folder) -> None:
+def _waits_for_a_late_server(context: CheckContext, client: Client) -> None:
     name, sides, volume = _random_box(context)
-    timer = Timer(1.0, context.serve, [name, BOX, lambda _: {"volume": volume}])
+    timer = Timer(1.0, client.serve, [name, lambda: {"volume": volume}])
     timer.start()
-    finished = _run(folder, name, sides)
+    finished = client.run(name, sides)
     timer.join()
     _prints(
         context,
@@ -206,9 +253,9 @@ def _waits_for_a_late_server(context: CheckContext, folder: Folder) -> None:
     )
 
 
-def _gives_up_without_a_server(context: CheckContext, folder: Folder, shapes: set[str]) -> None:
+def _gives_up_without_a_server(context: CheckContext, client: Client, shapes: set[str]) -> None:
     name, sides, _ = _random_box(context)
-    finished = _run(folder, name, sides)
+    finished = client.run(name, sides)
     context.require(
         "without a server, the program ends with 1 after 2 s and prints no volume",
         holds=finished.status == 1
@@ -238,23 +285,15 @@ def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
     return f"/{context.random.word()}", sides, float(context.random.integer(1000, 9000))
 
 
-def _refusing(
-    context: CheckContext, name: str, times: int, volume: float
-) -> tuple[ScriptedServer, list[float]]:
+def _refusing(client: Client, name: str, times: int, volume: float) -> tuple[ScriptedServer, list[float]]:
     """Start a server that refuses its first calls; return the server, and a list of call times (s)."""
     calls: list[float] = []
 
-    def act(_: object) -> Refuse | dict[str, float]:
+    def act() -> Act:
         calls.append(time.monotonic())
         return Refuse("not now") if len(calls) <= times else {"volume": volume}
 
-    return context.serve(name, BOX, act), calls
-
-
-def _run(folder: Folder, name: str, sides: list[float]) -> Finished:
-    words = [str(side) for side in sides]
-    line = f"patient_client {' '.join(words)}"
-    return folder.command("./program", *words, f"/box:={name}", within=LIMIT, worded=line)
+    return client.serve(name, act), calls
 
 
 def _numbers(out: str) -> list[float]:

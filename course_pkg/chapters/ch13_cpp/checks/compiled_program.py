@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from course_pkg.checking import CheckContext
 from course_pkg.checking.commands.folder import Folder, Running
-from course_pkg.checking.shared.roscpp_program import compile_roscpp
+from course_pkg.checking.shared.roscpp_program import compile_roscpp, require_no_other_program
 from course_pkg.errors import ToolMissing
 from course_pkg.waiting import at_this_load
 from course_pkg.workspace import missing_for_cpp
@@ -47,13 +49,16 @@ def compiled(context: CheckContext, file: str) -> Folder:
     return folder
 
 
-def started(context: CheckContext, folder: Folder, service: str, name: str) -> Running:
-    """Start ./program as a node with a random name.
+@contextmanager
+def started(context: CheckContext, folder: Folder, service: str, name: str) -> Iterator[Running]:
+    """Run ./program as a node with a random name; it must not become another program, or start one.
 
     The program's service `service`, such as "box", is remapped to the name `name`.
     """
     line = ["./program", f"/{service}:={name}", f"__name:={context.random.word()}"]
-    return folder.start(*line, worded=f"the program that serves /{service}")
+    with folder.start(*line, worded=f"the program that serves /{service}") as running:
+        yield running
+        require_no_other_program(context, running)
 
 
 def serves(context: CheckContext, running: Running, service: str, name: str, code: str) -> None:
@@ -69,6 +74,7 @@ def serves(context: CheckContext, running: Running, service: str, name: str, cod
     if running.status is not None:
         _does_not_serve(context, running, assertion, code)
     context.require(assertion, holds=True)
+    require_no_other_program(context, running)
 
 
 def _drops_the_service(code: str) -> bool:
