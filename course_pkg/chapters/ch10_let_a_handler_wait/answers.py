@@ -174,12 +174,16 @@ replace("wait_for(lambda: watch.next(request.after), timeout=request.patience)",
 replace("\n        watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """
         if watch.next(request.after) is None:
             watch.changed.wait(request.patience)""")
-# %% 10.2 wrong: keeps the processor busy | hint: Your loop has no pause, so it calls watch.next() thousands of times
+# %% 10.2 wrong: keeps the processor busy | hint: Your loop has no pause, so it checks for a customer thousands of times
 replace("\n    with watch … customer = watch.next(request.after)", """
     end = time.monotonic() + request.patience
     while time.monotonic() < end and watch.next(request.after) is None:
         pass
     customer = watch.next(request.after)""")
+# %% 10.2 wrong: waits for 0 s once, and looks rarely | hint: so it notices a customer late
+based_on("looks ten times a second")
+replace("    while True:", "    with watch.changed:\n        watch.changed.wait(0)\n    while True:")
+replace("time.sleep(0.1)", "time.sleep(min(1.2, end - time.monotonic()))")
 # %% 10.2 wrong: sleeps while it holds the condition | hint: The handler did not notice a new customer, because it holds the lock of
 replace("(watch, request):", "(watch, request):\n    end = time.monotonic() + request.patience")
 replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None and time.monotonic() < end:
@@ -326,6 +330,10 @@ replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)",
 replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):", """self.items == 0:
                 self.changed.wait(self.limit)
             if self.items == 0:""")
+# %% 10.3 wrong: gives up at the first wake-up of a condition in a list | hint: The handler of /take returned before its time limit was over
+based_on("gives up at the first wake-up")
+replace("        self.changed = ", "        self.tools = [None]\n        self.tools[0] = ")
+replace("self.changed", "self.tools[0]", times=4)
 # %% 10.3 wrong: waits before it looks | hint: An item was in the basket before the call
 replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):", "self.changed.wait(self.limit)\n            if self.items == 0:")
 # %% 10.3 wrong: the whole limit after each wake-up | hint: The handler of /take waits longer than the time limit
@@ -396,6 +404,22 @@ replace("        self.lock = … count - 1)", """
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)""")
+# %% 10.4 wrong: changes rospy in place of a lock | hint: The handlers never ran at the same time
+based_on("no lock")
+replace("class Stock", """from rospy.impl.tcpros_service import ServiceImpl
+
+LOCK, HANDLE = threading.Lock(), ServiceImpl._handle_request
+
+
+def one_by_one(self, transport, request):
+    with LOCK:
+        return HANDLE(self, transport, request)
+
+
+ServiceImpl._handle_request = one_by_one
+
+
+class Stock""")
 # %% 10.4 wrong: reads the shelf again after the lock | hint: Two clients got the same number of things
 replace("        return TriggerResponse(success=True, message=str(count - 1))", "        return TriggerResponse(success=True, message=str(self.shelf.read()))")
 # %% 10.4 wrong: reads the shelf only once | hint: New things were put on the shelf
@@ -526,7 +550,7 @@ replace('self.shelf.write(count - … : {error}")', """try:
             except rospy.ServiceException as error:
                 return TriggerResponse(success=False, message=f"not paid: {error}")
             self.shelf.write(count - 1)""")
-# %% 10.5 wrong: holds the lock across the call, and /left waits for it only briefly | hint: The till never had two calls at the same time
+# %% 10.5 wrong: holds the lock across the call, and /left waits for it only briefly | hint: The till had only a few calls at the same time
 replace("        with self.lock:\n            return Trigger", "        held = self.lock.acquire(timeout=0.2)\n        number = self.shelf.read()\n        if held:\n            self.lock.release()\n        return Trigger")
 replace('message=str(self.shelf.read())', 'message=str(number)')
 replace('self.shelf.write(count - … : {error}")', """self.shelf.write(count - 1)
@@ -535,6 +559,14 @@ replace('self.shelf.write(count - … : {error}")', """self.shelf.write(count - 
             except rospy.ServiceException as error:
                 self.shelf.write(count)
                 return TriggerResponse(success=False, message=f"not paid: {error}")""")
+# %% 10.5 wrong: a semaphore with two permits across the call | hint: The till had only a few calls at the same time
+replace("    def handle_buy(self, request):", """    permits = threading.BoundedSemaphore(2)
+
+    def handle_buy(self, request):
+        with self.permits:
+            return self.buy()
+
+    def buy(self):""")
 # %% 10.5 wrong: takes the thing after the payment | hint: the thing is still on the shelf
 replace("count = self.shelf.read()\n            if count == 0:", "if self.shelf.read() == 0:")
 replace("\n            self.shelf.write(count - 1)", "")
@@ -565,6 +597,9 @@ replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n
 # %% 10.5 wrong: one id for all | hint: Two purchases have the same request_id
 replace("threading.Lock()", "threading.Lock()\n        self.request_id = str(uuid.uuid4())")
 replace("str(uuid.uuid4()),", "self.request_id,")
+# %% 10.5 wrong: ids from a counter | hint: The ids come from a counter, and another program
+replace("str(uuid.uuid4())", "str(next(NUMBERS))")
+replace("class Shop", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\nclass Shop")
 # %% 10.5 wrong: no id | hint: The field `request_id` is empty
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(cents=self.cents).receipt")
 # %% 10.5 wrong: another message for sold out | hint: The shelf is empty, but the handler did not report this
@@ -657,6 +692,20 @@ def move(source, target):
 replace("    first, second = sorted((source, target), key=lambda shelf: shelf.number)\n", "")
 replace("with first.lock, second.lock", "with source.lock, target.lock")
 
+# %% 10.6 wrong: changes threading in place of an order | hint: The threads of the check ran one after the other
+based_on("locks the source first")
+replace("def move", """class Inline(threading.Thread):
+    def start(self):
+        self.run()
+
+    def join(self, timeout=None):
+        pass
+
+
+threading.Thread = Inline
+
+
+def move""")
 # %% 10.6 wrong: locks the target first | hint: Two threads acquired the two locks in opposite orders, so each of them waits
 def move(source, target):
     with target.lock:

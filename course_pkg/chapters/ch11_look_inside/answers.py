@@ -52,6 +52,9 @@ replace("encode()", 'encode("ascii")')
 replace("encode()", 'encode("latin-1")')
 # %% 11.1 wrong: list of ints | hint: The function returned numbers, but a socket sends bytes
 replace('struct.pack("<I", len(body)) + body', 'list(struct.pack("<I", len(body)) + body)')
+# %% 11.1 wrong: a list class with the name bytes | hint: The function returned numbers, but a socket sends bytes
+replace("def pack_header", "class bytes(list):\n    pass\n\n\ndef pack_header")
+replace('struct.pack("<I", len(body)) + body', 'bytes(struct.pack("<I", len(body)) + body)')
 # %% 11.1 wrong: two-byte lengths | hint: A length has the wrong number of bytes
 replace("I", "H", times=2)
 # %% 11.1 wrong: nothing for an empty header | hint: For a header without fields, the result is wrong
@@ -156,6 +159,11 @@ based_on("a list of pieces")
 replace('b"".join(pieces)', "pieces")
 # %% 11.2 wrong: closes the socket | hint: The function closed the socket
 replace("    return data", "    sock.close()\n    return data")
+# %% 11.2 wrong: closes the socket and hides this | hint: The function closed the socket
+replace("            raise", "            sock.close()\n            raise")
+replace("def receive", "socket.socket.fileno = lambda self: 3\n\n\ndef receive")
+# %% 11.2 wrong: another class with the right name | hint: The function raised an error of the wrong type
+replace("def receive", "class ConnectionError(Exception):\n    pass\n\n\ndef receive")
 # %% 11.2 wrong: another error | hint: The function raised an error of the wrong type
 replace("ConnectionError(", "ValueError(")
 
@@ -573,6 +581,11 @@ replace("()\n        return self.proxy", "()\n        return self.measure")
 replace("(rospy.ServiceException, rospy.exceptions.TransportException, AttributeError)", "rospy.ServiceException")
 # %% 11.5 wrong: does not catch AttributeError | hint: A broken connection can raise three kinds of errors
 replace(", AttributeError)", ")")
+# %% 11.5 wrong: does not catch AttributeError, with the proxy in a list | hint: A broken connection can raise three kinds of errors
+based_on("does not catch AttributeError")
+replace("self.proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)", "self.proxies = [rospy.ServiceProxy(self.service, geometry, persistent=True)]")
+replace("self.proxy.close", "self.proxies[0].close")
+replace("self.proxy(", "self.proxies[0](", times=2)
 # %% 11.5 wrong: returns the volume | hint: Return the whole response of the proxy
 based_on("a loop of two")
 replace("height)\n            except", "height).volume\n            except")
@@ -688,5 +701,7 @@ replace("\n    def measure … self.service)", """    def measure(self, length, 
             self.uri = rosgraph.Master(node.name).lookupService(self.service)
         except rosgraph.MasterError:
             pass""")
+# %% 11.6 wrong: asks the master, and ignores the answer | hint: Your method looked up the address again, although the stored address was
+replace("        try:", "        try:\n            rosgraph.Master(node.name).lookupService(self.service)\n        except rosgraph.MasterError:\n            pass\n        try:")
 # %% 11.6 wrong: one of the two numbers | hint: Your method did not return the numbers that `ask()` returned
 replace("height)\n        except", "height)[1]\n        except")

@@ -7,10 +7,12 @@ effect, such as a message.
 from __future__ import annotations
 
 import ast
+import builtins
 import difflib
 import inspect
 import io
 import logging
+import sys
 import textwrap
 import time
 import traceback
@@ -27,6 +29,9 @@ from course_pkg.checking.kernel.time_limit import TimeLimit, TimesUp
 from course_pkg.checking.plain_values import Reply, Value, plain
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.workspace import own_workspace
+
+# Student code that runs later can replace names in `builtins`, but not these classes.
+BUILT_IN = {name: each for name, each in vars(builtins).items() if isinstance(each, type)}
 
 
 class PrintedText(io.TextIOBase):
@@ -204,11 +209,18 @@ def _described(error: BaseException) -> Json:
     # Use only lines in cells: the cells of the notebook run in the module `__main__`, and no other code does.
     lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]
     return {
-        "type": type(error).__name__,
-        "bases": [base.__name__ for base in type(error).__mro__[1:]],
+        "type": _class_name(type(error)),
+        "bases": [_class_name(base) for base in type(error).__mro__[1:]],
         "text": str(error)[:4000],
         "line": lines[-1] if lines else None,
     }
+
+
+def _class_name(cls: type) -> str:
+    """Return the name of a class; if a class of Python or rospy has this name, add the module of `cls`."""
+    name = cls.__name__
+    known = BUILT_IN.get(name) or getattr(sys.modules.get("rospy"), name, cls)
+    return name if known is cls else f"{cls.__module__}.{name}"
 
 
 def _defined_here(name: str, value: Value) -> bool:

@@ -19,11 +19,12 @@ from course_pkg.checking.peers.scripted_server import Act, HangUp
 from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.plain_values import Message, Value
 from course_pkg.checking.result import Result
+from course_pkg.checking.shared.request_ids import from_a_counter
 from course_pkg.errors import GraphError
 from course_pkg.ros.node.proxy import BoundedProxy
 
 CHARGE = "course_pkg/Charge"
-MEETING = 2.0  # A call to the till waits at most this many s for another call.
+MEETING = 3.0  # A call to the till waits at most this many s for other calls.
 ABSENT = 4.0  # If no till runs, a sale may take this many s on a busy machine.
 CALL_BACK = 2.0  # After this many s, the till continues without a response from the shop.
 LOCKED = (
@@ -31,8 +32,8 @@ LOCKED = (
     "before you call the till's service."
 )
 SERIAL = (
-    "The till never had two calls at the same time, because your handler holds a lock during the call. "
-    "Release the lock before you call the till's service."
+    "The till had only a few calls at the same time, because your handler holds a lock or a semaphore during "
+    "the call. Release it before you call the till's service."
 )
 STUCK = (
     "A client waits forever, because a lock was not released. Use `with`, which releases the lock "
@@ -63,7 +64,10 @@ NO_TILL = (
 
 
 class Till:
-    """A till that charges amounts; while the till handles its first call, it calls a service of the shop."""
+    """A till that charges amounts; while the till handles its first call, it calls a service of the shop.
+
+    If many clients call the till at the same time, its first call waits until `crowd` calls have arrived.
+    """
 
     def __init__(self, context: CheckContext, left: str, shelf: CheckedShelf) -> None:
         # `acts` contains the results of the next calls; None means that the till charges the amount.
@@ -78,11 +82,12 @@ class Till:
         self._first = context.random.integer(1000, 9000)
         self._left, self._kind = left, context.service_class(TRIGGER)
         self._inside, self._meets = 0, False
+        self.crowd = context.random.integer(4, 6)
         self.together = 0  # `together` is the maximum number of simultaneous calls.
         self._changed = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next call wait for a second call, for at most MEETING s."""
+        """Let the next calls wait until `crowd` calls have arrived, but for at most MEETING s."""
         self._meets = True
 
     def __call__(self, request: Message) -> Act:
@@ -92,8 +97,8 @@ class Till:
             self.together = max(self.together, self._inside)
             self._changed.notify_all()
             if self._meets:
+                self._changed.wait_for(lambda: self.together >= self.crowd, MEETING)
                 self._meets = False
-                self._changed.wait_for(lambda: self._inside > 1, MEETING)
         try:
             return self._act(request)
         finally:
@@ -352,9 +357,9 @@ def _sells_to_fifty(
     )
     context.require(
         f"{CALLERS} clients at the same time: as many charges as sales",
-        holds=till.together > 1,
-        expected="several clients pay at the same time",
-        actual="one client pays after the other",
+        holds=till.together >= till.crowd,
+        expected="all clients can pay at the same time",
+        actual=f"at most {till.together} at the same time",
         hints=SERIAL,
     )
     context.require(
@@ -364,6 +369,16 @@ def _sells_to_fifty(
         actual="the same id twice",
         hints=(
             "Two purchases have the same request_id. In the handler, create a new request_id for each call."
+        ),
+    )
+    context.require(
+        f"{CALLERS} clients at the same time: each purchase has its own request_id",
+        holds=not from_a_counter(till.ids),
+        expected="ids that no other program creates",
+        actual=", ".join(till.ids[:3]),
+        hints=(
+            "The ids come from a counter, and another program, or this program after a restart, creates the "
+            "same ids. Create each id with uuid.uuid4()."
         ),
     )
     refusals = [reply.message for reply in replies if not reply.success and reply.message != "sold out"]

@@ -30,6 +30,7 @@ MEETING = 0.01  # A thread waits at most this many s for another thread.
 # The first of many threads waits at most this many s until the other threads have started.
 FIRST_MEETING = 0.3
 FIRST = 2  # This many calls of read() or write() wait for up to FIRST_MEETING s.
+ENTERING = 2.0  # The first of many handlers waits at most this many s for the second handler.
 LATE = 7  # With many threads, each seventh read is late.
 LATE_READ = 0.05  # A late read waits at most this many s for a write of another thread.
 
@@ -44,8 +45,16 @@ class CheckedShop:
     def open(self, kind, shelf, services, *others):
         small_stacks.begin()
         self.one = kind(shelf, *others)
+
+        def recorded(handler):
+            def handle(request):
+                shelf.enter()
+                return handler(request)
+
+            return handle
+
         handlers = [(name, getattr(self.one, handler)) for name, handler in services.items()]
-        self.services = [rospy.Service(name, Trigger, handler) for name, handler in handlers]
+        self.services = [rospy.Service(name, Trigger, recorded(handler)) for name, handler in handlers]
 
     def close(self):
         small_stacks.end()
@@ -70,6 +79,8 @@ class CheckedShelf:
 
     def __init__(self, count: int) -> None:
         self.things: Value = count
+        self.together = False  # `together` is True if two handlers ran at the same time.
+        self._entered = 0
         self._reads = 0
         self._writes = 0
         self._crowded = False
@@ -83,6 +94,17 @@ class CheckedShelf:
         """
         self._crowded = True
         self._long_waits = FIRST
+
+    @remote
+    def enter(self) -> None:
+        """Begin to handle a request; the first of many handlers waits until the second handler begins."""
+        if not self._crowded:
+            return
+        with self._turn:
+            self._entered += 1
+            self._turn.notify_all()
+            if self._entered == 1:
+                self.together = self._turn.wait_for(lambda: self._entered > 1, ENTERING)
 
     @remote
     def read(self) -> Value:

@@ -45,6 +45,10 @@ REREAD = (
     "Two clients got the same number of things that are left. Read the shelf only while you hold the lock, "
     "and calculate the message from this number."
 )
+ONE_BY_ONE = (
+    "The handlers never ran at the same time, because your code has changed rospy or a module of Python. "
+    "Remove this change, and protect the shelf with a lock in your class."
+)
 EMPTIED = 'Sell the things to one client after the other. When the shelf is empty, respond with "sold out".'
 
 
@@ -168,6 +172,13 @@ def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count:
     shelf.await_crowd()
     replies = [reply.response for reply in take.at_once([{}] * CALLERS)]
     sold = [reply.message for reply in replies if reply.success]
+    if not shelf.together:
+        context.fail(
+            f"{CALLERS} clients at the same time: all things are sold, and not more",
+            expected="several handlers at the same time",
+            actual="one handler after the other",
+            hint=ONE_BY_ONE,
+        )
     context.expect(
         f"{CALLERS} clients at the same time: all things are sold, and not more",
         expected=count,

@@ -13,6 +13,7 @@ from course_pkg.checking.plain_values import Value
 # If a thread cannot acquire a lock within this many s, the check assumes a deadlock.
 LIMIT = 4.0
 THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES moves.
+BEGIN = 2.0  # All threads must have begun within this many s.
 RUN = 14.0  # This time limit in s for all threads is enough for three consecutive deadlocks and all moves.
 
 MEETING = 0.01  # A thread that holds a lock waits at most this many s for another thread.
@@ -30,11 +31,11 @@ def checked_move(function, pair, source, target):
 
 
 def checked_cross(function, pair, count, moves):
-    begin, shelves = threading.Barrier(count), (pair.first, pair.second)
+    shelves = pair.first, pair.second
 
     def work(source):
         try:
-            begin.wait(5)
+            pair.begin(count)
             for _ in range(moves):
                 pair.returned(function(shelves[source], shelves[1 - source]))
         except Exception as error:
@@ -149,6 +150,7 @@ class CheckedPair:
         self.results: list[Value] = []
         self._shelves = [CheckedShelf(self, *each, LIMIT) for each in zip(numbers, counts, strict=True)]
         self._meeting = FIRST_MEETING if crowd else MEETING
+        self._begun = 0
         self._turn = threading.Condition()
 
     @property
@@ -162,6 +164,15 @@ class CheckedPair:
     def second(self) -> CheckedShelf:
         """The shelf with the higher number."""
         return self._shelves[1]
+
+    @remote
+    def begin(self, count: int) -> None:
+        """Wait until `count` threads have called this method."""
+        with self._turn:
+            self._begun += 1
+            self._turn.notify_all()
+            if not self._turn.wait_for(lambda: self._begun >= count, BEGIN):
+                raise TimeoutError("the threads ran one after the other")
 
     @remote
     def returned(self, value: Value) -> None:
@@ -217,6 +228,13 @@ ERRORS = [
         (
             "The function did not return. If your code acquires the second lock in a loop, "
             "release the first lock before each new attempt."
+        ),
+    ),
+    (
+        matches("one after the other"),
+        (
+            "The threads of the check ran one after the other, because your code has changed a module of "
+            "Python. Remove this change, and use only the two locks."
         ),
     ),
     (

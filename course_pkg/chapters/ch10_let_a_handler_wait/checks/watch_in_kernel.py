@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from course_pkg.checking.kernel.unchanged_clock import UNCHANGED_CLOCK
+
 # This code defines the class Shop, which serves the student's handler together with a new Watch.
-A_SHOP = """
+A_SHOP = (
+    UNCHANGED_CLOCK
+    + """
 import collections
 import functools
 import threading
@@ -71,5 +75,11 @@ class Shop:
         self.service.shutdown("checked")
 
 
+    @property
+    def used(self):
+        return clock.process_time()  # s of processor time of the kernel
+
+
 shop = Shop()
 """
+)

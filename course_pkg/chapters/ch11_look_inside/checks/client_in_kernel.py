@@ -13,14 +13,27 @@ from course_pkg.checking.assertions import Hints
 from course_pkg.checking.result import Result
 
 KERNEL_CODE = """
+import gc
 import socket
+import sys
 
 import rospy
 
+lookups = []
+
+
+def record_lookups():
+    '''Record each lookup that this process sends to the master; Python code cannot remove an audit hook.'''
+    sys.addaudithook(
+        lambda event, args: event == "http.client.send"
+        and b">lookupService<" in bytes(args[1])
+        and lookups.append(event)
+    )
+
 
 def make_client(kind, service):
-    global client
-    client = kind(service)
+    global client, service_name
+    client, service_name = kind(service), rospy.resolve_name(service)
 
 
 def measured(kind, *sides):
@@ -43,8 +56,9 @@ def break_transport():
 
 
 def kept_proxies():
-    values = vars(client).values()
-    return [each for each in values if isinstance(each, rospy.ServiceProxy) and each.transport]
+    # A proxy can be in an attribute of the client, or in a list or another object of the client.
+    proxies = [each for each in gc.get_objects() if issubclass(type(each), rospy.ServiceProxy)]
+    return [each for each in proxies if each.transport and each.resolved_name == service_name]
 """
 
 

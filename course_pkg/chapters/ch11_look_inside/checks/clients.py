@@ -354,7 +354,9 @@ def _keeps_the_address(context: CheckContext, name: str, client: Client, numbers
         "the stored address."
     )
     assertion = "a call with a known address needs no master"
+    context.run("record_lookups")
     _measures_both(context, client, assertion, numbers, (), again)
+    context.expect(assertion, expected=0, actual=len(context.read("lookups", list)), hints=again)
     sides = context.random.numbers(3, 0.5, 9.0)
     context.run("measured_by_another", Its("Remembering"), name, *sides)
     _measures_both(context, client, assertion, numbers, (), SHARED)

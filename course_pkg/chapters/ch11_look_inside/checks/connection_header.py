@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import secrets
+import select
 import socket
 import struct
 import termios
@@ -18,9 +19,11 @@ from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.waiting import wait_until
 
-TYPE_OF_HEADER = """
-def type_of_header(pack_header, fields):
-    return type(pack_header(fields)).__name__
+# `type(b"")` is the class of bytes, even if the student has defined another class with the name "bytes".
+TYPED_HEADER = """
+def typed_header(pack_header, fields):
+    packed = pack_header(fields)
+    return [packed, type(packed) in (type(b""), bytearray), type(packed).__name__]
 """
 YOUR_END = """
 import socket
@@ -100,7 +103,7 @@ def packed_header(context: CheckContext) -> None:
     bytes.
     """
     word = context.random.word
-    context.prepare(TYPE_OF_HEADER)
+    context.prepare(TYPED_HEADER)
     for what, fields in (
         ("two fields", {"service": f"/{word()}", "md5sum": word(32)}),
         ("a letter outside of ASCII", {"session": "", "robot": f"Jürgen {word(3)}"}),
@@ -108,7 +111,9 @@ def packed_header(context: CheckContext) -> None:
         ("two fields", {"type": f"my/{word()}", "message_definition": word(300)}),
     ):
         assertion = f"{what}: the bytes are a header of TCPROS"
-        packed = context.run("pack_header", fields, hints=ERRORS).returned()
+        packed, sent, kind = context.run(
+            "typed_header", Its("pack_header"), fields, hints=ERRORS, worded="pack_header()"
+        ).returned(list)
         # TCPROS allows any order of the fields.
         orders = [dict(order) for order in permutations(fields.items())]
         expected = [list(_packed(order)) for order in orders]
@@ -118,12 +123,11 @@ def packed_header(context: CheckContext) -> None:
             actual=packed,
             hints=_wrong_header(orders),
         )
-        kind = context.run("type_of_header", Its("pack_header"), fields, worded="pack_header()").returned()
         context.require(
             assertion,
-            holds=kind in ("bytes", "bytearray"),
+            holds=sent is True,
             expected="bytes",
-            actual=kind,
+            actual=f"a {kind} that is not bytes" if kind == "bytes" else kind,
             hints=(
                 "The function returned numbers, but a socket sends bytes. Convert the numbers with "
                 "bytes(...)."
@@ -268,7 +272,7 @@ def exact_read(context: CheckContext) -> None:
         )
         context.require(
             "if the connection ends before the last byte, a ConnectionError is raised",
-            holds=context.run("is_open", worded="receive()").returned() is True,
+            holds=context.run("is_open", worded="receive()").returned() is True and other.is_open(),
             expected="a socket that is still open",
             actual="a closed socket",
             hints=CLOSED,
@@ -317,6 +321,13 @@ class OtherEnd:
         self._sending.join()
         self._listener.close()
 
+    def is_open(self) -> bool:
+        """Return whether the client's socket is open."""
+        poll = select.poll()
+        if self._sock is not None:
+            poll.register(self._sock, 0)
+        return not any(seen & select.POLLHUP for _, seen in poll.poll(0))
+
     def has_more(self) -> bool:
         """Return whether the client's socket contains unread bytes."""
         with suppress(OSError):
@@ -332,8 +343,9 @@ class OtherEnd:
                     self._over.wait(self._pause)
                     sock.sendall(piece)
                     wait_until(lambda: not _unread(sock), PEEKING, 0.005, self._over)
-                if not self._closes:
-                    self._over.wait()
+                if self._closes:
+                    sock.shutdown(socket.SHUT_WR)
+                self._over.wait()
 
 
 def _unread(sock: socket.socket) -> int:
