@@ -247,6 +247,10 @@ replace("10, latch=True", "10")
 replace("self.publisher.publish(value)", "wait_until(self.publisher.get_num_connections, 0.8)\n            self.publisher.publish(value)")
 # %% 02.3 wrong: waits for a subscriber and latches | hint: Do not wait in set().
 replace("self.publisher.publish(value)", "wait_until(self.publisher.get_num_connections, 0.5)\n            self.publisher.publish(value)")
+# %% 02.3 wrong: a pause in set(), except for 0 | hint: Do not wait in set().
+replace("self.value = value", "self.value = value\n            time.sleep(0.5 if value else 0)")
+# %% 02.3 wrong: leaves out very small changes | hint: A changed value was not published
+replace("value != self.value", "self.value is None or abs(value - self.value) > 1e-9")
 # %% 02.3 wrong: publishes each time | hint: The same value was published again.
 replace("if value != self.value:", "if True:")
 # %% 02.3 wrong: starts with 0 | hint: The first value was 0
@@ -358,6 +362,8 @@ based_on("a thread for each angle")
 replace("threading.Thread(target=draw, args=[message.data], daemon=True).start()", "first.unregister()\n        draw(message.data)")
 replace("return [ … ]", """first = rospy.Subscriber(angles, Float64, on_angle, queue_size=1)
     return [first, rospy.Subscriber(orders, UInt32, lambda message: prepare(message.data))]""")
+# %% 02.4 wrong: a pause after each drawing | hint: draw() was called too seldom, although
+replace("lambda message: draw(message.data)", "lambda message: (draw(message.data), time.sleep(0.4))")
 # %% 02.4 wrong: does not return | hint: The function does not return. Return
 replace("return [", "subscribers = [")
 replace("    ]", "    ]\n    rospy.spin()\n    return subscribers")
@@ -448,8 +454,10 @@ replace('\n        if self.last is None:\n            return "waiting"', "")
 # %% 02.5 wrong: "running" before the first message | hint: Return "waiting", not
 replace("self.last = None", "self.last = time.monotonic()")
 replace('\n        if self.last is None:\n            return "waiting"', "")
-# %% 02.5 wrong: a limit of a quarter of a second | hint: The last message arrived half a
+# %% 02.5 wrong: a limit of a quarter of a second | hint: Less than a second has passed since
 replace("1.0", "0.25")
+# %% 02.5 wrong: a limit of 0.8 s | hint: Less than a second has passed since
+replace("1.0", "0.8")
 # %% 02.5 wrong: a message with a 0 does not count | hint: Messages with the number 0 have arrived
 replace("self.last = time", "if message.data:\n            self.last = time")
 # %% 02.5 wrong: the time of the first message | hint: The last message arrived less than

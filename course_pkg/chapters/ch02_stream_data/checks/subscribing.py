@@ -391,11 +391,13 @@ def _of_another_length(values: Sequence[float]) -> Callable[[Sequence[float]], b
 
 def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[Arrival]) -> None:
     delays = [arrival.at - at for at, arrival in zip(sent, arrivals, strict=False)]
+    # On a busy machine, many messages are late, but some messages arrive in time.
+    median, fast = statistics.median(delays), sorted(delays)[len(delays) // 8]
     context.require(
         "each message is mirrored without delay",
-        holds=statistics.median(delays) < 0.15,
+        holds=median < 0.15 and fast < at_this_load(0.05),
         expected="a mirrored message a few milliseconds after the original",
-        actual=f"a delay of more than {statistics.median(delays):.2f} s for half of the mirrored messages",
+        actual=f"a delay of more than {median:.2f} s for half of the mirrored messages",
         hints="Your messages are late. Publish in the callback, and do not wait in the callback.",
     )
 
@@ -474,6 +476,18 @@ def _drawn(
         hints=(
             "draw() got only one angle. Do not unregister the subscriber, because it has to "
             "receive more messages."
+        ),
+    )
+    # A new angle arrives during each drawing, so the next drawing begins immediately.
+    pause = min(later - earlier for (earlier, _), (later, _) in pairwise(drawn))
+    context.require(
+        "draw is called again and again",
+        holds=pause < 2.2 * DRAWING,
+        expected=f"a call every {DRAWING} s, because a drawing takes this time",
+        actual=f"at least {pause:.2f} s between two calls",
+        hints=(
+            "draw() was called too seldom, although new angles arrived. Call draw() again as soon as a "
+            "drawing has ended."
         ),
     )
     overlap = any(later - earlier < 0.9 * DRAWING for (earlier, _), (later, _) in pairwise(drawn))
