@@ -487,10 +487,6 @@ replace('        rospy.wait_for_service("detect_customer", timeout=3)\n', "")
 replace('rospy.get_param("~wait", 2.0)', "2.0")
 # %% 15.4 wrong: another default | hint: The second argument of rospy.get_param is this default value
 replace('"~wait", 2.0', '"~wait", 5.0')
-# %% 15.4 wrong: lets rosservice make the call | hint: Another program, such as rosservice, made the call
-replace("import sys", "import subprocess\nimport sys")
-replace('response = rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', 'words = ["rosservice", "call", rospy.resolve_name("detect_customer"), "{patience: %r}" % patience]\n        done = subprocess.run(words, capture_output=True, text=True).stdout')
-replace("response.found", '"True" in done')
 # %% 15.4 wrong: calls twice | hint: The program called the service more than once
 replace('AwaitCustomer)(patience)', 'AwaitCustomer)(patience)\n        response = rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)')
 # %% 15.4 wrong: calls again after a refusal | hint: The service refused the call, and the program called the service again

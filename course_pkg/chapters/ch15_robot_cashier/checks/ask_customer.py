@@ -9,7 +9,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.student_node import examined,
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.commands.folder import Running
-from course_pkg.checking.peers.scripted_server import Act, Refuse, ScriptedServer
+from course_pkg.checking.peers.scripted_server import Act, Refuse
 from course_pkg.checking.shared.catkin_package import BuiltPackage
 from course_pkg.srv import AwaitCustomerRequest
 from course_pkg.waiting import wait_until
@@ -85,10 +85,6 @@ NO_WORD = (
     "The service does not exist, and the program ended without a message. Print the reason before the "
     "program ends."
 )
-ANOTHER_CALLER = (
-    "Another program, such as rosservice, made the call for your node. Create a rospy.ServiceProxy in your "
-    "program, and call the service with it."
-)
 ASKED = 'Wait for detect_customer, call it once, and print "customer" or "nobody".'
 
 
@@ -122,10 +118,9 @@ def the_client(context: CheckContext) -> None:
         early.is_on_the_graph()
         wait_until(early.has_ended, SOON)
         _waits(context, early)
-        late = context.serve(f"{early.space}/{DETECT}", AWAIT, detector.answer)
+        context.serve(f"{early.space}/{DETECT}", AWAIT, detector.answer)
         _calls(context, early.end(), detector)
         _finds_nobody(context, default.end(), usual)
-        _calls_itself(context, early, late)
         context.fulfilled(ASKED)
         _is_refused(context, refused.end(), usual)
         alone.is_on_the_graph()
@@ -243,19 +238,6 @@ def _calls(context: CheckContext, run: Run, detector: _Detector) -> None:
         hints=PARAMETER,
     )
     _prints(context, run, "customer")
-
-
-def _calls_itself(context: CheckContext, run: Run, server: ScriptedServer) -> None:
-    """Report a failure if another node, such as rosservice, made the call."""
-    for header in server.received.headers:
-        caller = header.get("callerid", "")
-        if not caller.startswith(f"{run.space}/"):
-            context.fail(
-                "the program calls the service once and ends",
-                expected=f"a call of the node {NAME}",
-                actual=f"a call of {caller or 'a program without a node'}",
-                hint=ANOTHER_CALLER,
-            )
 
 
 def _finds_nobody(context: CheckContext, run: Run, detector: _Detector) -> None:
