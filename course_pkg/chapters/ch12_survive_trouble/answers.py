@@ -52,6 +52,13 @@ def call_within(seconds, proxy, *values):
 replace(", daemon=True", "")
 # %% 12.1 wrong: looks at the thread all the time | hint: The function uses the processor while it waits
 replace("thread.join(seconds)", "end = time.monotonic() + seconds\n    while thread.is_alive() and time.monotonic() < end:\n        pass")
+# %% 12.1 wrong: hides its processor time | hint: The function uses the processor while it waits
+based_on("looks at the thread all the time")
+replace("def call_within", "time.process_time = lambda: 0.0\n\n\ndef call_within")
+# %% 12.1 wrong: a thread that only says that it is a daemon thread | hint: Create the thread with daemon=True
+replace(", daemon=True)\n    thread.start()", ")\n    thread.start()\n    thread._daemonic = True")
+# %% 12.1 wrong: another class with the right name | hint: The function did not raise TimeoutError
+replace("def call_within", "class TimeoutError(Exception):\n    pass\n\n\ndef call_within")
 # %% 12.1 wrong: a pool that is not joined | hint: Python waits for each thread that is not a daemon thread
 from concurrent.futures import ThreadPoolExecutor
 
@@ -337,6 +344,9 @@ replace("request_id", "str(uuid.uuid4())")
 # %% 12.3 wrong: one id for all payments | hint: Two payments had the same id
 replace("def", "request_id = str(uuid.uuid4())\ndef")
 replace("\n    request_id = str(uuid.uuid4())", "")
+# %% 12.3 wrong: ids from a counter | hint: The ids come from a counter, and another program
+replace("str(uuid.uuid4())", 'f"p{next(NUMBERS)}"')
+replace("def pay", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\ndef pay")
 # %% 12.3 wrong: no id | hint: The field `request_id` is empty
 replace("Charge), request_id, cents", 'Charge), "", cents')
 # %% 12.3 wrong: repeats a refusal | hint: The till refused the payment, but pay() called the till again
@@ -507,6 +517,14 @@ replace("""
                 self.master.""", "\n            self.master.")
 # %% 12.4 wrong: stops in the middle of a look | hint: The thread registered the service after stop() had returned
 replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
+# %% 12.4 wrong: another thread registers the service | hint: The thread registered the service after stop() had returned
+replace("self.over.set()", "self.over.set()\n            threading.Thread(target=self.go_on, daemon=True).start()")
+replace("    def stop", """    def go_on(self):
+        while True:
+            rosgraph.Master(rospy.get_name(), self.master.master_uri).registerService(self.service, self.uri, rospy.get_node_uri())
+            time.sleep(self.every)
+
+    def stop""")
 # %% 12.4 wrong: sleeps in stop | hint: The thread registered the service after stop() had returned
 based_on("stops in the middle of a look")
 replace("self.over.set()", "self.over.set()\n        time.sleep(0.8)")

@@ -150,6 +150,9 @@ replace("        with self.changed:\n            end", "        with self.turn, 
 replace("        self.customer = False", "        self.customer = False\n        self.turn = threading.Lock()")
 # %% 15.2 wrong: wakes up one thread only | hint: The customer came while several calls were waiting, but one of these
 replace("            self.customer = message.data\n            self.changed.notify_all()", "            if message.data and not self.customer:\n                self.changed.notify()\n            self.customer = message.data")
+# %% 15.2 wrong: polls twice per second | hint: A call got its response late, because the handler polls with long pauses
+based_on("a loop that looks again and again")
+replace("time.sleep(0.02)", "time.sleep(min(0.5, end - time.monotonic()))")
 # %% 15.2 wrong: no limits | hint: The handler accepted an impossible value of `patience`
 replace("if not 0 <= request.patience <= 60:", "if False:")
 replace("timeout=request.patience)", "timeout=max(0, request.patience))")
@@ -784,6 +787,10 @@ replace('</launch>', '  <node pkg="my_cashier" type="ask_customer.py" name="ask_
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
 # %% 15.10 wrong: a prefix starts another program | hint: A <node> tag starts the wrong program
 replace('type="till.py"', 'type="till.py" launch-prefix="rosrun course_pkg till"')
+# %% 15.10 wrong: a remapping cuts a connection | hint: The file gives another name to a topic or service of a node
+replace('name="till" />', 'name="till"><remap from="till/set" to="nobody" /></node>')
+# %% 15.10 wrong: an argument cuts a connection | hint: The file gives another name to a topic or service of a node
+replace('name="vision" />', 'name="vision" args="customer_seen:=nobody" />')
 # %% 15.10 wrong: no parameter | hint: The node robot_cashier has no parameter "wait"
 replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
@@ -823,6 +830,23 @@ replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
 replace(' respawn="true"', "", times=4)
 # %% 15.11 wrong: a long delay | hint: The attribute respawn_delay lets roslaunch wait too long
 replace('name="till" respawn="true"', 'name="till" respawn="true" respawn_delay="10"')
+# %% 15.11 wrong: the process id of another process | hint: roslaunch did not start a node again
+change_node("till", """import subprocess
+from rospy.impl.masterslave import ROSHandler
+
+decoy = subprocess.Popen(["sleep", "300"])
+
+
+def get_pid(self, caller_id):
+    global decoy
+    decoy = decoy if decoy.poll() is None else subprocess.Popen(["sleep", "300"])
+    return 1, "", decoy.pid
+
+
+ROSHandler.getPid = get_pid""")
+launch = package / "launch/cashier.launch"
+launch.write_text(RESPAWNING.replace('name="till" respawn="true"', 'name="till"'))
+
 # %% 15.11 wrong: one node without respawn | hint: roslaunch did not start a node again
 replace('name="till" respawn="true"', 'name="till"')
 # %% 15.11 wrong: no valid XML | hint: roslaunch ended. Type

@@ -162,6 +162,8 @@ replace("if not client.wait_for_result … Duration(2))", "client.wait_for_resul
 replace("if not client.wait_for_result(rospy.Duration(seconds)):", "time.sleep(seconds)\n    if client.get_result() is None:")
 # %% 16.2 wrong: waits for ever after the cancellation | hint: Wait at most 2 s after cancel_goal()
 replace("client.wait_for_result(rospy.Duration(2))", "client.wait_for_result()")
+# %% 16.2 wrong: four seconds after the cancellation | hint: Wait at most 2 s after cancel_goal()
+replace("client.wait_for_result(rospy.Duration(2))", "client.wait_for_result(rospy.Duration(4.3))")
 # %% 16.2 wrong: whole seconds | hint: Pass a rospy.Duration above 0
 replace("rospy.Duration(seconds)", "rospy.Duration(int(seconds))")
 # %% 16.2 wrong: gives up, and cancels nothing | hint: get_result() returned None, because the goal had not ended
@@ -190,6 +192,8 @@ replace("(seconds)", "(4.5)")
 replace("(seconds)", "(0.3)")
 # %% 16.2 wrong: five seconds for a server | hint: The function waited too long for a server
 replace("(rospy.Duration(2)):", "(rospy.Duration(5)):")
+# %% 16.2 wrong: four seconds for a server | hint: The function waited too long for a server
+replace("(rospy.Duration(2)):", "(rospy.Duration(4)):")
 # %% 16.2 wrong: hardly waits for a robot | hint: The server started 0.6 s … The server started
 replace("(rospy.Duration(2)):", "(rospy.Duration(0.4)):")
 # %% 16.2 wrong: the whole result | hint: The function returned the whole result
@@ -355,6 +359,8 @@ replace("            self.charge -= 1\n", "")
 replace("        self.server.set_succeeded", "        self.charge -= 1\n        self.server.set_succeeded")
 # %% 16.4 wrong: cannot be cancelled | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted
 replace("\n            if self.server … return", "")
+# %% 16.4 wrong: no delivery if a parcel takes long | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted
+replace("        for ", "        if goal.seconds > 0.25:\n            self.server.set_succeeded(FetchResult(fetched=goal.things))\n            return\n        for ")
 # %% 16.4 wrong: an empty result of a cancelled delivery | hint: The result of a cancelled delivery is wrong
 replace("set_preempted(FetchResult(fetched=delivered))", "set_preempted()")
 # %% 16.4 wrong: does not check the capacity | hint: Compare goal.things with the parameter ~capacity

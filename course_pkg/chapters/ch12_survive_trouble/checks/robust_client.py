@@ -22,6 +22,7 @@ from course_pkg.chapters.ch12_survive_trouble.checks.payments import (
 from course_pkg.checking import ANYTHING, CheckContext, HangUp, Late, Refuse, Silence, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.faulty_server import Crash, Fault, FaultyServer, Frozen, Stumble
+from course_pkg.checking.shared.request_ids import from_a_counter
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
@@ -131,6 +132,16 @@ def _pays(context: CheckContext, name: str, till: FaultyServer, books: Books) ->
                 "as you have a receipt."
             ),
         )
+    context.require(
+        "each payment has a different id",
+        holds=not from_a_counter([str(each["request_id"]) for each in till.requests]),
+        expected="ids that no other program creates",
+        actual=", ".join(str(each["request_id"]) for each in till.requests),
+        hints=(
+            "The ids come from a counter, and another program, or this program after a restart, creates the "
+            "same ids. Create each id with uuid.uuid4(), which never returns the same id twice."
+        ),
+    )
 
 
 def _is_a_new_payment(

@@ -6,6 +6,7 @@ import threading
 
 from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Late, Refuse, Silence, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.kernel.unchanged_clock import UNCHANGED_CLOCK
 from course_pkg.checking.peers.scripted_server import Act
 from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Result
@@ -17,9 +18,10 @@ VERY_LONG = 25.0  # A function that polls only ten times within this many s retu
 HELD = 10.0  # The server delays a response by at most this many s.
 WORK = 0.3  # WORK is the duration of a slow handler in s.
 SLACK = 1.2  # On a busy machine, a call may take this many s longer.
-KERNEL_CODE = """
+KERNEL_CODE = (
+    UNCHANGED_CLOCK
+    + """
 import threading
-import time
 
 import rospy
 from course_pkg.srv import AddTwoInts
@@ -27,18 +29,23 @@ from course_pkg.srv import AddTwoInts
 
 class CheckedCall:
     def call(self, function, name, seconds, a, b):
-        threads, began = threading.enumerate(), time.process_time()
+        threads, began = threading.enumerate(), clock.process_time()
         try:
             response = function(seconds, rospy.ServiceProxy(name, AddTwoInts), a, b)
         finally:
-            self.busy = time.process_time() - began  # s of processor time
+            self.busy = clock.process_time() - began  # s of processor time
             new = [thread for thread in threading.enumerate() if thread not in threads]
-            self.daemon = all(thread.daemon for thread in new)
+            # At the end of a program, Python 3.11 waits for the threads whose locks are in _shutdown_locks.
+            waits = getattr(threading, "_shutdown_locks", ())
+            self.daemon = all(
+                thread.daemon and getattr(thread, "_tstate_lock", None) not in waits for thread in new
+            )
         return None if response is None else [response.sum]
 
 
 checked_call = CheckedCall()
 """
+)
 ABANDONED = (1, 2)  # These numbers are in the requests of the calls that end with TimeoutError.
 BUSY = 0.2  # A loop without a sleep uses more than this CPU time (s) within LONG s.
 ERRORS = [

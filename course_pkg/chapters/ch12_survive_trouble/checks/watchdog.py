@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from contextlib import suppress
 
 from course_pkg.chapters.ch12_survive_trouble.checks.watchdog_in_kernel import KERNEL_CODE, CheckedMaster
@@ -111,7 +112,7 @@ def a_watchdog(context: CheckContext) -> None:
         context.fulfilled(REGISTERED)
         _registers_both_addresses(context, watched, uri, node_uri)
         _polls_with_pauses(context, watched, time.monotonic() - begun)
-        _stops(context, watched)
+        _stops(context, watched, lambda: _returns(context, master, name, uri))
     finally:
         context.run("checked_watch.close")
         second.stop()
@@ -304,17 +305,25 @@ NOT_STOPPED: Hints = [
 ]
 
 
-def _stops(context: CheckContext, watched: CheckedMaster) -> None:
+def _returns(context: CheckContext, master: MasterClient, name: str, uri: str) -> bool:
+    """Unregister the service, and return whether the kernel registers it again over any connection."""
+    master.unregister_service(str(context.run("rospy.get_name").value), name, uri)
+    return bool(wait_until(lambda: master.lookup_service(name), LATE))
+
+
+def _stops(context: CheckContext, watched: CheckedMaster, returns: Callable[[], bool]) -> None:
     context.expect(
         "after stop(), nothing is registered any more",
         expected="quiet",
-        actual=_stopped_amid_a_look(context, watched),
+        actual=_stopped_amid_a_look(context, watched, returns),
         hints=NOT_STOPPED,
     )
 
 
-def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
+def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster, returns: Callable[[], bool]) -> str:
     """Call stop() during a poll; return "quiet" if the watchdog then stops correctly.
+
+    `returns` unregisters the service, and returns whether the service is registered again.
 
     After stop(), a right watchdog does not register the service again, and makes at most LAST polls.
     """
@@ -326,8 +335,7 @@ def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
     if stopped is None:
         return "stop() hangs"
     result.returned()
-    late = wait_until(lambda: any(when > stopped for when in watched.registered), LATE)
-    if late:
+    if returns() or any(when > stopped for when in watched.registered):
         return "after stop"
     return "further polls" if watched.polls_after(stopped) > LAST else "quiet"
 

@@ -16,7 +16,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
-from course_pkg.checking.peers.service_calls import Reply, Service
+from course_pkg.checking.peers.service_calls import Service
 
 NAME = "customer_detector"
 SEEN, DETECT = "customer_seen", "detect_customer"
@@ -26,7 +26,14 @@ LONG = 6.0  # This value of `patience` (s) is longer than every successful wait.
 LATER = 2.2  # LATER is the time in s until a customer comes.
 SLACK = 2.0  # On a busy machine, a call may take this many s longer.
 EARLY = 0.1  # A call that ends this many s too early is accepted, because the measured times are not exact.
-CALLERS = 4
+CALLERS = 9  # This many calls wait at the same time; each call begins APART s after the previous call.
+APART = 0.06
+BEGUN = 0.6  # All calls have begun after this many s.
+SOONER = 1.0  # In a repeated attempt, the customer comes after this many s.
+ATTEMPTS = 3
+# In the best attempt, each response has to come this many s after the customer. With pauses of 0.5 s between
+# two polls, the last response comes later.
+PROMPT = 0.4
 
 NOT_SEEN = (
     "The newest message reports a customer, but `found` is False in the response. Use the newest message."
@@ -47,6 +54,10 @@ ONE_BY_ONE = (
 NOT_WOKEN = (
     "The customer came while several calls were waiting, but one of these calls ended too late. "
     "In the callback, call notify_all() to wake up all waiting calls."
+)
+POLLED = (
+    "A call got its response late, because the handler polls with long pauses. Wait with "
+    "Condition.wait_for, and call notify_all() in the callback of the subscriber."
 )
 UNREFUSED = (
     "The handler accepted an impossible value of `patience`. Raise rospy.ServiceException if the "
@@ -140,11 +151,10 @@ def _finds_nobody(context: CheckContext, detect: Service, patience: float) -> No
 
 def _serves_several_callers(context: CheckContext, detect: Service, vision: SeenCustomers) -> None:
     """Let several calls wait, make a short call during this time, and then let a customer come."""
-    with ThreadPoolExecutor(1) as pool:
+    with ThreadPoolExecutor(CALLERS) as pool:
         began = time.monotonic()
-        vision.show_later(LATER, True)
-        waiting: Future[list[Reply]] = pool.submit(lambda: detect.at_once([{"patience": LONG}] * CALLERS))
-        time.sleep(0.5)
+        waiting = _calls_that_wait(pool, detect, vision, LATER)
+        time.sleep(BEGUN)
         short = context.service(detect.name, AWAIT, timeout=LATER)
         response = short(patience=0.0)
         context.require(
@@ -154,17 +164,46 @@ def _serves_several_callers(context: CheckContext, detect: Service, vision: Seen
             actual="a response after the customer had come",
             hints=ONE_BY_ONE,
         )
-        replies = waiting.result()
-    took = [each.took for each in replies]
+        late, found = zip(*[each.result() for each in waiting], strict=True)
+        context.require(
+            "all waiting calls get a response when the customer comes",
+            holds=min(late) > -2 * EARLY and max(late) < SLACK and all(found),
+            expected=f"{CALLERS} responses with found=True after {LATER:g} s",
+            actual=f"responses after {LATER + min(late):.1f} to {LATER + max(late):.1f} s",
+            hints=NOT_WOKEN if max(late) >= SLACK else NO_WAIT,
+        )
+        latest = max(late)
+        for _ in range(ATTEMPTS - 1):
+            if latest < PROMPT:
+                break
+            vision.show(False)
+            again = _calls_that_wait(pool, detect, vision, SOONER)
+            latest = min(latest, max(each.result()[0] for each in again))
     context.require(
         "all waiting calls get a response when the customer comes",
-        holds=min(took) > LATER - 2 * EARLY
-        and max(took) < LATER + SLACK
-        and all(each.response.found for each in replies),
-        expected=f"{CALLERS} responses with found=True after {LATER:g} s",
-        actual=f"responses after {min(took):.1f} to {max(took):.1f} s",
-        hints=NOT_WOKEN if max(took) >= LATER + SLACK else NO_WAIT,
+        holds=latest < PROMPT,
+        expected="each response immediately after the customer has come",
+        actual=f"a response {latest:.1f} s after the customer has come",
+        hints=POLLED,
     )
+
+
+def _calls_that_wait(
+    pool: ThreadPoolExecutor, detect: Service, vision: SeenCustomers, later: float
+) -> list[Future[tuple[float, bool]]]:
+    """Begin CALLERS calls one after another, and let a customer come after `later` s.
+
+    For each call, the result is the time in s from the customer to the response, and the field `found`.
+    """
+    came = time.monotonic() + later
+    vision.show_later(later, True)
+
+    def call(number: int) -> tuple[float, bool]:
+        time.sleep(number * APART)
+        (reply,) = detect.at_once([{"patience": LONG}])
+        return time.monotonic() - came, reply.response.found
+
+    return [pool.submit(call, number) for number in range(CALLERS)]
 
 
 def _refuses_impossible_patience(context: CheckContext, detect: Service, vision: SeenCustomers) -> None:

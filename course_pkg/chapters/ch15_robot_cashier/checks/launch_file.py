@@ -25,6 +25,10 @@ from roslaunch.config import load_config_default
 config = load_config_default([(sys.argv[1], sys.argv[2:])], None)
 for node in config.nodes:
     print("node", node.namespace + node.name, node.package, node.type, node.launch_prefix or "")
+    remapped = [*node.remap_args, *re.findall(r"(?<!\\S)([^_\\s:]\\S*):=(\\S+)", node.args or "")]
+    for old, new in remapped:
+        if new.strip("/") != old.strip("/"):
+            print("remapped", node.namespace + node.name, old, new)
     print("respawn_delay", node.namespace + node.name, node.respawn_delay)
     for key, value in re.findall(r"(?<!\\S)_(\\w+):=(\\S+)", node.args or ""):
         print(f"{node.namespace}{node.name}/{key}: {value}")
@@ -114,6 +118,21 @@ def the_launch_file(context: CheckContext) -> None:
         printed = package.run(line, within=READING, worded=worded.strip()).out
         _passes_the_argument(context, printed, value, words)
         starts_programs(context, printed)
+        _remaps_nothing(context, printed)
+
+
+def _remaps_nothing(context: CheckContext, printed: str) -> None:
+    """Report a failure if the file connects a node to another name."""
+    for node, old, new in re.findall(r"^remapped (\S+) (\S+) (\S+)", printed, re.MULTILINE):
+        context.fail(
+            "each node has its own program",
+            expected=f"the node {node} with the name {old}",
+            actual=f"the name {new}",
+            hint=(
+                "The file gives another name to a topic or service of a node, so other nodes do not find it. "
+                'Remove the <remap> tag, or the part with := in the attribute "args".'
+            ),
+        )
 
 
 def _roslaunch(package: BuiltPackage, words: list[str]) -> Running:

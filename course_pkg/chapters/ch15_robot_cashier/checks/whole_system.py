@@ -29,7 +29,7 @@ from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.peers.subscription import Subscription
 from course_pkg.checking.shared.catkin_package import BuiltPackage, copied
 from course_pkg.ros import Snapshot
-from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient, items
+from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient, items, port_of
 from course_pkg.waiting import wait_until
 
 # On a busy machine, the system may take this many s to start; it takes 3 s on an idle machine.
@@ -96,6 +96,18 @@ DELAYED = (
     "The attribute respawn_delay lets roslaunch wait too long before it starts a node again. Remove this "
     "attribute."
 )
+# This code kills the process that listens at each of the given ports. A node could return the process id of
+# another process.
+KILLER = """
+import sys
+from contextlib import suppress
+import psutil
+for process in psutil.process_iter():
+    with suppress(psutil.Error):
+        sockets = process.net_connections("tcp")
+        if any(sock.status == psutil.CONN_LISTEN and str(sock.laddr.port) in sys.argv for sock in sockets):
+            process.kill()
+"""
 RESTARTED = "a node that was killed is started again"  # The text is the title of an assertion.
 AFTERWARDS = (
     "After all nodes were killed and started again, the next customer was not greeted. Start the "
@@ -362,8 +374,11 @@ def _waits_briefly(context: CheckContext, delay: float) -> None:
 
 def _restarts_killed_nodes(context: CheckContext, package: BuiltPackage, space: str, within: float) -> None:
     """Kill the four nodes; each node must run again as a new process within `within` s."""
-    before = {node: _pid(context.look(), f"{space}/{node}") for node in NODES}
-    package.folder.command("kill", "-9", *map(str, before.values()), worded="kill -9 for each node")
+    started = context.look()
+    before = {node: _pid(started, f"{space}/{node}") for node in NODES}
+    own = [started.node(f"{space}/{node}") for node in NODES]
+    ports = [str(port_of(node.uri)) for node in own if node is not None]
+    package.folder.command("python", "-c", KILLER, *ports, worded="kill -9 for each node")
 
     def dead() -> list[str]:
         seen = context.look()

@@ -28,7 +28,9 @@ LATE = 0.6  # A late robot starts this many s after the call.
 # fails.
 SECONDS = 0.8
 SLACK = 3.0  # On a busy machine, a call may take this many s longer.
-LONGEST = 4.7  # If no robot runs, the call may take this many s on a busy machine.
+LONGEST = 3.4  # If no robot runs, the fastest of ATTEMPTS calls may take this many s.
+STUBBORN = 3.9  # If the robot ignores the cancellation, the fastest of ATTEMPTS calls may take this many s.
+ATTEMPTS = 3
 BOUND = (
     "A wait without a time limit did not end. Pass a rospy.Duration above 0 to both wait_for_server "
     "and wait_for_result."
@@ -263,18 +265,22 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
 
 def _goes_on(context: CheckContext) -> None:
     """Start a robot that ignores cancellations; the student's function must end with a value or an error."""
-    name = f"/{context.random.word()}"
-    robot = Robot(0, LONG, stubborn=True)
-    with _serving(name, robot):
-        result = context.run("fetch_within", name, 3, BRIEF, within=BRIEF + WAIT + SLACK)
-        robot.over.set()
+    for _ in range(ATTEMPTS):
+        name = f"/{context.random.word()}"
+        robot = Robot(0, LONG, stubborn=True)
+        with _serving(name, robot):
+            result = context.run("fetch_within", name, 3, BRIEF, within=BRIEF + WAIT + SLACK)
+            robot.over.set()
+        endless = result.error.startswith("TimesUp")
+        if endless or result.took < STUBBORN:
+            break
     context.require(
         "a robot that does not finish in time is cancelled",
-        holds=not result.error.startswith("TimesUp"),
+        holds=not endless and result.took < STUBBORN,
         expected=f"a function that ends at most {WAIT:g} s after the cancellation",
-        actual="a function that does not end",
+        actual="a function that does not end" if endless else f"an end after {result.took:.1f} s",
         hints=(
-            "The robot ignored the cancellation, so the function waited forever. Wait at most 2 s "
+            "The robot ignored the cancellation, so the function waited too long. Wait at most 2 s "
             "after cancel_goal()."
         ),
     )
@@ -325,6 +331,9 @@ def _nobody(context: CheckContext) -> None:
         actual=result.returned(),
         hints=NOBODY,
     )
+    for _ in range(ATTEMPTS - 1):
+        if result.took > LONGEST:
+            result = _call_without_robot(context)
     if result.took > LONGEST:
         context.fail(
             "None if no robot offers the action",

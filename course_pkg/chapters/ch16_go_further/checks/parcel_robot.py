@@ -30,6 +30,7 @@ USUAL = 5  # Without an argument, the robot has the capacity for this many parce
 FEW = 4  # The first robot has the capacity for this many parcels, which is less than the default.
 PARCELS = 3  # Each delivery has this many parcels, which both robots can carry.
 EACH = 0.2  # A robot needs this many s for one parcel.
+SLOWER = (0.55, 0.9)  # In a delivery that is cancelled, one parcel takes a number of s between these.
 PERIOD = 0.2  # The robot publishes the charge of its battery every PERIOD s.
 LONG = 2.5  # In the last goal, which has too many parcels, each parcel would need this many s.
 ENDING = 4.0  # ENDING is the time limit in s for the end of a goal.
@@ -205,7 +206,8 @@ def _cancels(
 ) -> float:
     """Cancel a delivery after its first parcel; return the charge of the battery afterwards."""
     before = feedback.count
-    client.send_goal(FetchGoal(things=PARCELS, seconds=EACH))
+    each = context.random.number(*SLOWER)
+    client.send_goal(FetchGoal(things=PARCELS, seconds=each))
     feedback.wait(before + 1, ENDING)
     client.cancel_goal()
     _ends_as(
