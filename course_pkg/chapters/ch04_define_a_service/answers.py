@@ -124,7 +124,7 @@ replace("context = genmsg … in halves]", """lines = [line.split("#")[0].split(
 # %% 04.2 wrong: compares the texts | hint: ROS ignores comments, blank lines and
 replace("md5_of(server) == md5_of(client)", "server == client")
 
-# %% 04.2 wrong: tidies the texts, and compares them | hint: the order of constants and fields
+# %% 04.2 wrong: tidies the texts, and compares them | hint: Only the constants have another
 based_on("the texts of which the MD5s are made")
 replace("context = genmsg … in halves]", """lines = [line.split("#")[0].replace("=", " = ").split() for line in text.splitlines()]
         return [words for words in lines if words]""")

@@ -147,8 +147,8 @@ def _pairs(context: CheckContext) -> list[Pair]:
             "compatible: a constant below the fields",
             text,
             _text([], [*above, *top], below),
-            "Only the constants are in another place, and the order of constants and fields is not part of "
-            "the MD5 sum. Compare the MD5 sums of both texts.",
+            "Only the constants have another place in the text, and the MD5 sum does not depend on this "
+            "place. Compare the MD5 sums of both texts.",
         ),
         Pair(
             "not compatible: another text after # in a string constant",
