@@ -62,16 +62,8 @@ replace('if __name__ == "__main__":\n    rospy.init_node("spawn_turtle")\n    sy
 replace('if __name__ == "__main__":', 'if __name__ in ("__main__", "spawn_turtle"):')
 # %% 09.1 wrong: an undefined variable | hint: The program stopped with an error
 replace('3, 3, 0, "MyTurtle")\n', 'x, 3, 0, "MyTurtle")\n')
-# %% 09.1 wrong: starts the course's program | hint: Your program starts or imports a program of the course
-"""
-%%writefile src/my_turtles/scripts/spawn_turtle.py
-#!/usr/bin/env python3
-import os
-import sys
-
-if __name__ == "__main__":
-    os.execvp("rosrun", ["rosrun", "course_pkg", "spawn_turtle", *sys.argv[1:]])
-"""
+# %% 09.1 wrong: prepares the node as the course's programs do | hint: Your program starts or imports a program of the course
+replace('rospy.init_node("spawn_turtle")', 'rospy.init_node("spawn_turtle")\n    from course_pkg.ros import prepare_node\n    prepare_node()')
 
 # %% 09.2 right: as in the chapter
 solution()

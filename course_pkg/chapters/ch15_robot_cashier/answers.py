@@ -92,16 +92,8 @@ replace('"frames"', '"/frames"')
 replace('init_node("vision")', 'init_node("camera")')
 # %% 15.1 wrong: a misspelt topic | hint: The program runs, but no part of it
 replace('"customer_seen"', '"costumer_seen"')
-# %% 15.1 wrong: starts the course's program | hint: Your program starts or imports a program of the course
-"""
-%%writefile src/my_cashier/scripts/vision.py
-#!/usr/bin/env python3
-import os
-import sys
-
-if __name__ == "__main__":
-    os.execvp("rosrun", ["rosrun", "course_pkg", "vision", *sys.argv[1:]])
-"""
+# %% 15.1 wrong: prepares the node as the course's programs do | hint: Your program starts or imports a program of the course
+replace('rospy.init_node("vision")', 'rospy.init_node("vision")\n    from course_pkg.ros import prepare_node\n    prepare_node()')
 # %% 15.1 wrong: no spin | hint: The program reached its last line, so the node ended
 replace("\n    rospy.spin()", "")
 
