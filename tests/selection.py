@@ -55,11 +55,11 @@ class Selection:
         self._selected: dict[str, int] = {}
 
     def is_unchanged(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` has passed, and its files have not changed since then."""
+        """Return whether the group of `item` passed, and its files have not changed since the last pass."""
         return self._passed.get(group_of(item.nodeid)) == digest_of(group_of(item.nodeid))
 
     def has_changed(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` has passed, but its files have changed since then."""
+        """Return whether the group of `item` passed, but its files have changed since the last pass."""
         return group_of(item.nodeid) in self._passed and not self.is_unchanged(item)
 
     def note(self, report: pytest.TestReport) -> None:

@@ -22,9 +22,9 @@ class Fault:
     and a command line.
 
     `look` describes the symptom in one or two words. The first word names a group of symptoms, and the second
-    word a subgroup of very similar symptoms. The wrong diagnoses for students come from faults with a similar
-    `look`. `unlike` contains faults whose diagnoses would also be correct, so they are not offered as wrong
-    choices.
+    word a subgroup of very similar symptoms. Students choose between the correct diagnosis and wrong
+    diagnoses, which belong to other faults with a similar `look`. `unlike` contains faults whose diagnoses
+    would also be correct, so they are not offered as wrong choices.
     """
 
     name: str

@@ -85,7 +85,7 @@ class ChapterProgress:
 
     @property
     def chosen(self) -> tuple[int, int]:
-        """The number of correct choices, and the number of choices that were compared with the right ones."""
+        """The number of correct choices, and the number of choices that were compared with a solution."""
         compared = [each for each in self.choices if each.compared]
         return sum(each.fit for each in compared), sum(len(each.first) for each in compared)
 
@@ -134,12 +134,12 @@ class Progress:
 
     @property
     def right(self) -> tuple[int, int]:
-        """The number of correct predictions, and of all compared predictions; see ChapterProgress.right."""
+        """The two numbers of ChapterProgress.right, each added up over all chapters."""
         return _sum([each.right for each in self.chapters])
 
     @property
     def chosen(self) -> tuple[int, int]:
-        """The number of correct choices, and the number of choices that were compared with the right ones."""
+        """The number of correct choices, and the number of choices that were compared with a solution."""
         return _sum([each.chosen for each in self.chapters])
 
     @property

@@ -1,4 +1,7 @@
-"""The check runner of one part: a trusted process that is forked for one check, in the part's network."""
+"""The check runner: a trusted process that runs the check of one part of an exercise.
+
+Each check runs in a new check runner, which is forked and enters the network namespace of the part.
+"""
 
 from __future__ import annotations
 

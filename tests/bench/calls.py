@@ -349,8 +349,8 @@ def serve(folder: Path) -> None:
 # with and without recording. The result of a run is the lower quartile of its durations. The benchmark prints
 # the fastest run, because other programs on the machine can only make a run slower.
 
-# The first number is the maximum ratio of two durations of a call on a new connection: with and without
-# recording. The second number is the maximum duration of an event in µs.
+# RECORDER_BAR is for calls on a new connection: with recording, a call may take at most RECORDER_BAR times as
+# long as without recording. EVENT_BAR is the maximum time in µs to record one event.
 RECORDER_BAR, EVENT_BAR = 1.03, 5.0
 NODE = """
 import json, os, statistics, sys, time

@@ -21,7 +21,7 @@ LaterRun = Callable[[str], CellRun | None]
 
 
 class OlderCode:
-    """Compares a function or class that exists in the kernel with the last run of its cell."""
+    """Finds functions and classes in the kernel that are older than the last run of their cell."""
 
     def __init__(self, namespace: Mapping[str, Value], later_run: LaterRun) -> None:
         self._namespace = namespace
@@ -62,7 +62,7 @@ class OlderCode:
     def _defined_again(self, function: FunctionType) -> bool:
         """Return whether the last run of the cell defined the function again, with the same code.
 
-        If the result is True, only other code in the cell has changed.
+        If the result is True, a change in the cell did not change the code of this function.
         """
         first, *rest = function.__qualname__.split(".")
         current = self._namespace.get(first)

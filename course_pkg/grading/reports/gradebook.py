@@ -23,7 +23,8 @@ ABSENT = "These results are from an earlier run. In the latest run, nothing was 
 class Book:
     """The grades of a class, by student and chapter.
 
-    A grade gets a note if the submission ran without a sandbox, or if this run had no submission.
+    A grade gets a note if the code of the submission ran without a sandbox. A grade from an earlier grading
+    run gets a note if the student handed in nothing for the chapter in the latest run.
     """
 
     def __init__(

@@ -155,9 +155,9 @@ class _Search:
             self.lines |= match.possible
 
     def refuse_shared(self) -> None:
-        """Remove a row that matches several students.
+        """If the same row was found for several students, mark these students as unclear.
 
-        Only the instructor can decide to which student the row belongs.
+        The instructor has to decide to which of these students the row belongs.
         """
         by_line: dict[int, list[str]] = {}
         for student, person in self.found.items():

@@ -47,7 +47,7 @@ class TimesTable:
     def __init__(self, folder: Path) -> None:
         """Read the table.
 
-        Raises HandoutError if the folder contains files, but not this table.
+        Raises HandoutError if the folder contains files, but no valid table of times.
         """
         self._path = folder / TIMES
         self._rows = self._read(folder)

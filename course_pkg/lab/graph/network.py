@@ -41,7 +41,7 @@ def create() -> list[int]:
 
 
 def enter(files: Sequence[int]) -> None:
-    """Enter the namespaces with these file descriptors; the calling process must have only one thread."""
+    """Enter the namespaces of the file descriptors `files`; the calling process must have only one thread."""
     for file, kind in zip(files, KINDS[len(files)], strict=True):
         namespaces.enter(file, kind)
     # After a change of the user namespace, other processes of the user cannot read this process in /proc.
@@ -50,9 +50,9 @@ def enter(files: Sequence[int]) -> None:
 
 
 def entering(files: Sequence[int]) -> list[str]:
-    """Return a prefix for a command line, which runs the command in the namespaces with these descriptors.
+    """Return a prefix for a command line; the prefix runs the command in the namespaces of `files`.
 
-    The prefix works as long as this process has the file descriptors open.
+    `files` contains file descriptors. The prefix works only while this process keeps them open.
     """
     paths = [f"/proc/{os.getpid()}/fd/{file}" for file in files]
     user = [f"--user={paths[0]}"] if len(paths) > 1 else []

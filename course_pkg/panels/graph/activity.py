@@ -132,7 +132,7 @@ class Rates:
         self._meters: dict[Key, RateMeter] = {}
 
     def read(self, activity: Activity) -> None:
-        """Add the counts in `activity`, which were read at the same time.
+        """Update the rate of each connection with its number of messages at the time `activity.at`.
 
         Connections that are not in `activity` have ended and are removed.
         """

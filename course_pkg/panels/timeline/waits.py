@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 
 class Wait(TypedDict):
-    """The calls of one node to one service.
+    """The calls of one node to one service, and the times that the node waited for the responses.
 
-    `blocked` is the sum of all waits in s, and `longest` is the longest wait in s. `open` is the number of
+    `blocked` is the sum of these times in s, and `longest` is the longest of them. `open` is the number of
     unfinished calls.
     """
 

@@ -16,7 +16,8 @@ from course_pkg.ros.topic.statistics import RateStatistics
 from course_pkg.types import MessageType, StringTree
 
 BURST = 1000  # One command publishes at most this number of messages without a pause.
-# A tick that is more than this time in s late is skipped; any other late tick is executed at once.
+# This is the maximum delay of a tick in s. A tick with a longer delay is skipped. A tick with a shorter delay
+# is executed at once.
 CATCH_UP = 0.25
 
 
@@ -72,7 +73,7 @@ class Commands:
         self._reached: int | None = None
 
     def publish(self, texts: dict[str, StringTree], *, latch: bool, queue: int, count: int = 1) -> None:
-        """Publish the message with these values `count` times, without a pause.
+        """Publish `count` messages with the values in `texts`, without a pause.
 
         publish() and repeat() raise PublisherStopped if the type is not known yet, FieldError if a value is
         wrong, and GraphError without a master.

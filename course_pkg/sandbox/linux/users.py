@@ -109,7 +109,7 @@ def hand_over(folder: str, uid: int) -> None:
 
 
 def clear(users: Users) -> None:
-    """Kill all processes that run student's code, and delete their files in shared folders.
+    """Kill all processes that run a student's code, and delete the users' files in shared folders.
 
     Orphaned processes are killed, too. The check runner is not killed, because it may not
     have written its record yet. Raises TimeoutError if some processes do not end.
@@ -128,8 +128,8 @@ def clear(users: Users) -> None:
 def _kill_all(uid: int, killer: int) -> None:
     """Kill all processes of `uid` in one system call, so that no process can fork before it is killed.
 
-    Only the effective user id of the killing process is `uid`. The killed processes therefore cannot send
-    signals to the killing process.
+    The killing process has the effective user id `uid`, so it may kill these processes. Its real and saved
+    user ids are `killer`, so these processes cannot send signals to the killing process.
     """
     if not (pid := os.fork()):
         try:

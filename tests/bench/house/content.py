@@ -100,7 +100,7 @@ def prose_main() -> bool:
 
 
 def all_main() -> bool:
-    """Print all counts, and return whether a count does not meet its limit."""
+    """Print all counts, and return True if at least one count is outside its limit."""
     return any([objects_main(), names_main(), parts_main(), errors_main(), prose_main()])
 
 

@@ -109,7 +109,7 @@ def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
 
 @pytest.mark.parametrize("publish", ["", "p.publish(1.5)"])
 def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) -> None:
-    """If a publisher has the wrong message type, the report contains this type before the first message."""
+    """The report contains a publisher's wrong message type, even if no message was published."""
     student.run(f"p = rospy.Publisher('/level', Float64, queue_size=10, latch=True); {publish}")
     _, seen, hint = check.run("result = broken(subscribe('/level'))")
     assert seen == "std_msgs/Float64"

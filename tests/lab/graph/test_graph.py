@@ -46,7 +46,7 @@ def sockets(folder: Path) -> list[str]:
 
 
 def test_the_master_has_the_usual_port_on_each_graph(graph: Graph, tmp_path: Path) -> None:
-    """Two graphs can run at the same time: each graph has a master at port 11311 and its own nodes."""
+    """Two ROS graphs have separate networks, so both masters can use port 11311 at the same time."""
     other = join_or_start(Which.ALONE, tmp_path)
     other.wait_for_master()
     assert graph.uri == other.uri == URI

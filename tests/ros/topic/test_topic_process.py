@@ -385,7 +385,7 @@ def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel
 
 
 def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
-    """If the process that started it is killed, the topic process exits and is unregistered."""
+    """If the parent process of a topic process is killed, the topic process exits and is unregistered."""
     pid = kernel.run("""
         from course_pkg.ros.topic.topic_process import TopicProcess
         reports = []

@@ -141,9 +141,9 @@ def _says(
 ) -> None:
     """Call state() `times` times, and assert that each call returns `word`.
 
-    After each call, the check waits `pause` s. If a call ends after the time `before` (time.monotonic()), any
-    of the three states is accepted. One call must be fast; the other calls may be slow, because the machine
-    may be busy.
+    After each call, the check waits `pause` s. `before` is a time as returned by time.monotonic(). If a call
+    ends later, the check accepts any of the three states. If there are several calls, at least one must be
+    fast; the other calls may be slow, because the machine may be busy.
     """
     took = []
     for _ in range(times):

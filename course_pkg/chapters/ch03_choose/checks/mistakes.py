@@ -45,5 +45,5 @@ CASES = Cases(
 
 @part("03.3", points=2, goal="Find the design mistake in each of six reports.", needs=["mistakes"])
 def find_the_mistake(context: CheckContext) -> None:
-    """Compare the student's choice for each case with the right mistake."""
+    """Check that the student found the design mistake in each case; `RIGHT` contains these mistakes."""
     compare_cases(context, "mistakes", CASES)

@@ -45,7 +45,8 @@ class Detector:
     def handle_detect(self, request: DetectCustomerRequest) -> DetectCustomerResponse:
         """Return the first customer whose number is higher than the request's field `after`.
 
-        If no such customer comes within `patience` s, the field `detected` of the response is False.
+        The handler waits at most `patience` s for a customer with such a number. If none comes, the field
+        `detected` of the response is False.
 
         Raises ServiceException if `patience` is out of range, if too many callers are waiting, or if the
         camera sends no messages.

@@ -42,9 +42,9 @@ LISTED = {
     goals=[ACCEPTED, *LISTED.values()],
 )
 def the_manifest(context: CheckContext) -> None:
-    """Build the package with the student's file and the check's other files.
+    """Build a package from the student's package.xml and the check's other files.
 
-    At the end, compare the dependencies in the student's package.xml.
+    Then check that package.xml lists all packages that the build and the program need.
     """
     built(context, given=[FILE])
     context.fulfilled(ACCEPTED)

@@ -53,7 +53,10 @@ COMPLETE = "Write a package.xml that catkin accepts. List all packages that your
     goals={COMPLETE: 3, "Write your own description, address and licence.": 1},
 )
 def the_manifest(context: CheckContext) -> None:
-    """Compare the dependencies, build the package, and examine the description, address and licence."""
+    """Check that package.xml lists the required packages, and that the package can be built.
+
+    Then check that the description, the address and the licence are the student's own.
+    """
     text = context.source(f"file:{FILE}")
     # If catkin cannot read the file, the build below reports the reason.
     for purpose, tag, packages in NEEDS if _texts(text) else ():

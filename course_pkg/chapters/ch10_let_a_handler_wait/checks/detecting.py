@@ -113,9 +113,10 @@ FOUND = (
     goals={FOUND: 2, "Respond to several clients at the same time.": 1},
 )
 def wait_for_a_customer(context: CheckContext) -> None:
-    """Call the service without a customer, with a customer who is there, and before a customer comes.
+    """Call the service in three cases, and then make several calls at the same time.
 
-    At the end, make several calls at the same time.
+    In the first case, no customer comes. In the second case, a customer is there before the call. In the
+    third case, a customer comes during the call.
     """
     counter, name = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(A_SHOP)

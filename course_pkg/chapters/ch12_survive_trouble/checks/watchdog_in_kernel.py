@@ -1,6 +1,6 @@
-"""A master that the check can pause during a poll of the student's watchdog.
+"""Records the calls of the student's watchdog to the master, and can delay a registration.
 
-The watchdog runs in the kernel and uses this master.
+The watchdog runs in the kernel. Its calls go to a CheckedMaster object, which calls the real master.
 """
 
 from __future__ import annotations
@@ -56,8 +56,8 @@ class CheckedMaster:
     """Calls a master for the watchdog, and records these calls.
 
     After hold(), the master reports that it knows no services. The watchdog therefore registers its service
-    again. This registration waits until stop() has returned, but at most `slow` s, because stop() may wait
-    for the watchdog's thread.
+    again. This registration waits until stop() has returned. Because stop() may wait for the watchdog's
+    thread, the registration also continues `slow` s after the call of stop(), or after PAUSE s in any case.
     """
 
     def __init__(self, uri: str, slow: float) -> None:
@@ -98,12 +98,12 @@ class CheckedMaster:
 
     @remote
     def stopping(self) -> None:
-        """Record that stop() was called."""
+        """Let a waiting registration continue after `slow` s, because stop() was called."""
         threading.Timer(self._slow, self._release).start()
 
     @remote
     def stopped(self) -> None:
-        """Record that stop() has returned."""
+        """Record the time at which stop() returned, and let a waiting registration continue."""
         self.stopped_at = time.monotonic()
         self._release()
 

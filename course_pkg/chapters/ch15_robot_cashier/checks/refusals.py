@@ -19,7 +19,8 @@ def refused(
 ) -> None:
     """Assert that the service refuses a request with an error message that contains `word`.
 
-    `hints` contains the hints for a call that is not refused, and for an error message without the word.
+    `hints` contains the hints for two cases: the call is not refused, or the error message does not contain
+    `word`.
     """
     rest = [(matches(""), hints)] if isinstance(hints, str) else list(hints)
     bug = (matches("error processing|handler returned"), BUG)

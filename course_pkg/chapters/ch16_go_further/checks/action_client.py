@@ -63,7 +63,7 @@ class Robot:
         self.cancelled = threading.Event()
         self.cancelled_all = False
         self.took = 0.0  # `took` is the time in s from the goal to its cancellation.
-        # This event ends a robot that ignores the cancellation.
+        # A stubborn robot ignores a cancellation. The check sets this event to end execute().
         self.over = threading.Event()
         self._fetched, self._seconds = fetched, seconds
         self._stubborn, self._aborts = stubborn, aborts
