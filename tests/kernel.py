@@ -1,4 +1,4 @@
-"""A Python process that runs cells like a notebook's kernel."""
+"""A Python process that runs code cells, as the kernel of a notebook does."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
 
-TIMEOUT = 30.0  # A cell may take this many seconds, unless a test gives another limit.
+TIMEOUT = 30.0  # TIMEOUT is the maximum duration of a cell in s; a test can give another limit.
 
 LOOP = """
 import json, os, sys, time
@@ -40,7 +40,7 @@ class Reply:
     """The result of a cell.
 
     `value` is the value of the variable `result` in the cell. If the cell raised an exception, `error` is the
-    exception's class name and `words` is its message. `took` is the duration in s.
+    exception's class name and `words` is its message. `took` is the duration of the cell in s.
     """
 
     value: Any
@@ -107,7 +107,7 @@ class Kernel:
         self._process.kill()
 
     def interrupt(self) -> None:
-        """Interrupt the running cell with SIGINT to the whole process group, as Jupyter does."""
+        """Interrupt the running cell: send SIGINT to the kernel's process group, as Jupyter does."""
         os.killpg(self.pid, signal.SIGINT)
 
     def exit(self, timeout: float = 10.0) -> str:

@@ -14,7 +14,7 @@ from types import TracebackType
 
 from jupyter_client import BlockingKernelClient, KernelManager
 
-TIMEOUT = 30.0  # A cell may take this many seconds.
+TIMEOUT = 30.0  # TIMEOUT is the maximum duration of a cell in s.
 
 
 @dataclass
@@ -36,10 +36,10 @@ class Shown:
 
 
 class NotebookKernel:
-    """An IPython kernel process with its client."""
+    """An IPython kernel process, and the client that sends cells to it."""
 
     def __init__(self, env: Mapping[str, str] | None = None) -> None:
-        # With TCP, another program could use the chosen port before the kernel listens on this port.
+        # With TCP, another program could take the chosen port before the kernel listens on it.
         self._folder = tempfile.TemporaryDirectory(prefix="kernel-")
         sockets = str(Path(self._folder.name) / "kernel.json")
         self.manager = KernelManager(kernel_name="python3", transport="ipc", connection_file=sockets)

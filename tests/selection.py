@@ -6,8 +6,8 @@ A test in tests/NAME depends on this folder, on the package course_pkg/NAME, and
 course_pkg/NAME may import. The import-linter contract in pyproject.toml lists these packages. A test of a
 chapter depends on the chapter's folder and on the chapters that the chapter imports.
 
-A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group if the files
-on which it depends have not changed since the group passed.
+A group contains the tests of one file; in a file with tests of several chapters, each chapter is a group.
+`--changed` omits a group if the files on which its tests depend have not changed since the group passed.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ else:
 
 ROOT = Path(__file__).parents[1]
 ALWAYS = ("pyproject.toml", "CMakeLists.txt", "package.xml", "course_pkg/setup/locks/test.txt")
-# The pattern finds the chapter in the id of a test, such as "[05.1 right: …]" or "[05_write_a_server]".
+# The pattern finds the chapter's number in the id of a test, such as "[05.1 right: …]".
 CHAPTER = re.compile(r"\[(\d\d)[._]")
 
 
@@ -46,7 +46,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 class Selection:
-    """The groups that passed; for each group, the object stores the digest of the group's files."""
+    """Stores, for each group of tests that passed, the digest of the group's files."""
 
     def __init__(self, file: Path) -> None:
         self._file = file
@@ -55,15 +55,15 @@ class Selection:
         self._selected: dict[str, int] = {}
 
     def is_unchanged(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` has passed with the current digest."""
+        """Return whether the group of `item` has passed, and its files have not changed since then."""
         return self._passed.get(group_of(item.nodeid)) == digest_of(group_of(item.nodeid))
 
     def has_changed(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` has passed with another digest."""
+        """Return whether the group of `item` has passed, but its files have changed since then."""
         return group_of(item.nodeid) in self._passed and not self.is_unchanged(item)
 
     def note(self, report: pytest.TestReport) -> None:
-        """Record the outcome of one phase of a test."""
+        """Record whether a phase of a test (set-up, call, tear-down) has failed."""
         group = group_of(report.nodeid)
         self._outcomes[group] = self._outcomes.get(group, True) and not report.failed
 
@@ -85,7 +85,7 @@ class SelectionPlugin:
         self._whole = not config.option.keyword and not any("::" in word for word in config.args)
 
     def pytest_collection_modifyitems(self, config: pytest.Config, items: list[pytest.Item]) -> None:
-        """Deselect the slow tests. With `--slow`, deselect all other tests.
+        """Without `--slow`, deselect the slow tests; with `--slow`, deselect all other tests.
 
         With `--changed`, also deselect the tests of unchanged groups.
         """
@@ -137,7 +137,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def group_of(test: str) -> str:
-    """Return the group of a test: its file, and the chapter in its parameter."""
+    """Return the group of a test: the file of the test, and the chapter in the id of the test."""
     found = CHAPTER.search(test)
     return f"{test.partition('::')[0]} {found[1] if found else ''}".strip()
 
@@ -159,7 +159,7 @@ def digest_of(group: str) -> str:
 def _packages_below(folder: str) -> list[str]:
     """Return the packages on which the folder tests/`folder` depends.
 
-    These are the packages in the import layer of course_pkg/`folder`, and in all lower layers.
+    The result contains the packages in the import layer of course_pkg/`folder` and in all lower layers.
 
     If no package has the name of the folder, return all packages.
     """
@@ -172,7 +172,7 @@ def _packages_below(folder: str) -> list[str]:
 
 
 def chapter_paths(chapter: str) -> Iterator[str]:
-    """Yield the paths on which a chapter's tests depend; if `chapter` is "", yield those of all chapters."""
+    """Yield the paths on which the tests of a chapter depend; if `chapter` is "", of all chapters."""
     for number in [chapter] if chapter else chapters():
         yield from (str(folder.relative_to(ROOT)) for folder in folders_for(number))
     for pattern in (f"solutions/{chapter}*", f"notebooks/{chapter}*"):

@@ -1,4 +1,4 @@
-"""Functions for all tests: waits, process states and commands."""
+"""Functions for all tests: waiting, states of processes, and commands."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Result = TypeVar("Result")
 
 
 def usual(count: int, cases: Mapping[str, object]) -> list[ParameterSet]:
-    """Return the parameters of a test; the cases after the first `count` cases are slow tests.
+    """Return parameters for a test, one for each case; all cases after the first `count` are slow tests.
 
     A key of `cases` is the id of a test. A value is the test's parameter, or a tuple of parameters.
     """
@@ -55,7 +55,10 @@ def stopped(pid: int) -> Iterator[None]:
 
 
 def process_state(pid: int) -> str:
-    """Return the letter of a process state, as in ps. Return "Z" if the process has exited."""
+    """Return the letter with which ps shows the state of a process.
+
+    For a process that has exited, return "Z".
+    """
     return _state(Path(f"/proc/{pid}/stat"))
 
 

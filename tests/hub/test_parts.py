@@ -57,7 +57,7 @@ def test_a_missing_or_foreign_home_is_a_problem(tmp_path: Path) -> None:
 
 
 def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
-    """The limits are written to the files of cgroup v2.
+    """The limits of memory and of the number of processes are written to the files of cgroup v2.
 
     The names and units are from Documentation/admin-guide/cgroup-v2.rst of Linux.
     """
@@ -71,7 +71,7 @@ def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
 
 
 def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
-    """Without control groups, describe() returns a text about rlimits, and rlimits limit the memory."""
+    """Without control groups, describe() names rlimits, and an allocation above the limit fails."""
     assert limits.group_of_hub(tmp_path) is None
     assert "rlimits" in limits.describe(LIMITS, None, own_account=True)
     program = "from tests.hub.test_parts import *; limits.set_rlimits(LIMITS, True); bytearray(400 << 20)"
@@ -81,7 +81,7 @@ def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
 
 
 def test_a_new_release_keeps_the_students_work(tmp_path: Path) -> None:
-    """Nbgitpuller downloads a new notebook, and does not overwrite a changed notebook."""
+    """The program nbgitpuller downloads new notebooks, and does not overwrite changed notebooks."""
     course, home = tmp_path / "course", tmp_path / "home" / "ros-course"
     for name in ("notebooks", "figures"):
         (course / name).mkdir(parents=True)
@@ -101,14 +101,14 @@ def test_a_new_release_keeps_the_students_work(tmp_path: Path) -> None:
 
 
 def test_the_proxy_is_pinned() -> None:
-    """The lock file contains no address of a registry."""
+    """The lock file of the JupyterHub proxy contains no address of a package registry."""
     lock = Path(__file__).parents[2] / "deploy" / "jupyterhub" / "package-lock.json"
     assert "configurable-http-proxy" in lock.read_text()
     assert "resolved" not in lock.read_text()
 
 
 def test_the_files_for_containers_can_be_read() -> None:
-    """The files for Kubernetes and Docker contain a memory limit and start JupyterLab.
+    """The files for Kubernetes and Docker set a memory limit and start JupyterLab.
 
     This test only reads the files, and starts no container.
     """

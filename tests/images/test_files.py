@@ -18,7 +18,7 @@ SECRET = re.compile(r"password|secret|token|api_?key", re.IGNORECASE)
 
 
 def test_the_base_is_a_distribution_that_the_course_knows(tmp_path: Path) -> None:
-    """The base image has the Debian version on which the tests run."""
+    """The base image has the Debian version on which the course's tests run."""
     base = dict(ARGUMENT.findall(DOCKERFILE.read_text()))["BASE"]
     release = tmp_path / "os-release"
     release.write_text("ID=debian\nVERSION_CODENAME=bookworm\n")
@@ -49,14 +49,14 @@ def test_the_devcontainer_uses_this_image() -> None:
 
 
 def test_the_image_runs_as_an_ordinary_user() -> None:
-    """The last USER line contains Binder's variable NB_UID, and the last line is a CMD."""
+    """In the Dockerfile, the last USER line contains Binder's variable NB_UID, and the last line is a CMD."""
     text = DOCKERFILE.read_text()
     assert re.findall(r"^USER (\S+)$", text, re.MULTILINE)[-1] == "${NB_UID}"
     assert text.rstrip().splitlines()[-1].startswith("CMD ")
 
 
 def test_no_file_names_a_registry_or_contains_a_secret() -> None:
-    """The files contain no registry address and no secret, so they can be published."""
+    """The Dockerfile, devcontainer.json and .dockerignore contain no registry address and no secret."""
     for path in (DOCKERFILE, DEVCONTAINER, ROOT / ".dockerignore"):
         assert not HOST.findall(path.read_text())
         assert not SECRET.findall(path.read_text())

@@ -5,7 +5,7 @@ of the new image.
 
 mmdebstrap creates the base, and buildah runs the Dockerfile in a chroot, so the test needs no registry.
 
-The image and its container need 4 GB in a temporary folder, which is removed at the end. The variable
+The image and its container need 4 GB in a temporary folder, which the tests remove at the end. The variable
 COURSE_IMAGE_FOLDER selects the parent folder of this temporary folder.
 """
 
@@ -45,11 +45,11 @@ pytestmark = [
 
 
 class Image:
-    """A container of the image, in its own folder."""
+    """A container of the course's image; all files of the container are in one folder."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        # The container uses the certificates and the local package indexes of this machine.
+        # The container uses the certificates and the local package indexes of the host.
         settings = [Path("/etc/ssl/certs/ca-certificates.crt"), folder / "pip.conf"]
         self._volumes = [
             f"--volume={settings[0]}:{settings[0]}:ro",
@@ -61,12 +61,12 @@ class Image:
         settings[1].write_text(f"[global]\ncert = {settings[0]}\nextra-index-url = {indexes}\n")
 
     def buildah(self, *arguments: str | Path) -> str:
-        """Run buildah with its storage in the folder, and return the output of buildah."""
+        """Run buildah, which stores its files in the image's folder, and return the output of buildah."""
         storage = ["--root", self._folder / "root", "--runroot", self._folder / "run"]
         return _output(["buildah", *storage, "--storage-driver=vfs", *arguments], TMPDIR=str(self._folder))
 
     def build(self) -> None:
-        """Create the base, build the image from the files that git tracks, and create a container."""
+        """Create a base image, build the image from the files that git tracks, and create a container."""
         base, context = self._folder / "base.tar", self._folder / "context"
         _output(["mmdebstrap", "--variant=minbase", "--include=ca-certificates", "bookworm", base])
         for name in filter(None, git(ROOT, "ls-files", "-z").split("\0")):
@@ -140,7 +140,7 @@ def image() -> Iterator[Image]:
 
 
 def test_jupyterlab_and_ros_are_on_the_path_of_an_ordinary_user(image: Image) -> None:
-    """Without a set-up, python3 can import jupyterlab, and jupyter-lab and ROS can be started."""
+    """In a new container, the user can import jupyterlab, and can start jupyter-lab and ROS."""
     seen = image.run(
         "id -un; command -v jupyter-lab; python3 -c 'import jupyterlab'; ./course run rosnode list"
     )
@@ -156,7 +156,7 @@ def test_the_course_works_without_namespaces(image: Image) -> None:
 
 
 def test_the_course_works_with_namespaces(image: Image) -> None:
-    """In a container with namespaces, the quick tests pass, and the sandbox checks answers."""
+    """In a container with namespaces, the quick tests pass, and answers can be checked in the sandbox."""
     image.run_with_namespaces("unshare -Urn true")
     assert "passed" in image.run_with_namespaces(f"{PYTEST} {QUICK} {STARTED}")
     assert "passed" in image.run_with_namespaces(f"{PYTEST} {ANSWERS}")

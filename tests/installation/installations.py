@@ -1,4 +1,4 @@
-"""A small installation for tests: a copy of the package that uses the environment of this checkout."""
+"""A small installation of the course for tests; it uses the Python environment of the checkout."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ ROOT = Path(__file__).parents[2]
 
 
 def make_version(prefix: Path) -> Path:
-    """Write a version with the notebooks of two chapters to `prefix`, and return its folder.
+    """Install a version of the course with two chapters below the folder `prefix`; return its folder.
 
-    The catkin workspace of the version is a link to the workspace of this checkout, so tests need no build.
+    The catkin workspace of this version is a link to the workspace of the checkout, so tests need no build.
     """
     version, built = prefix / "versions" / "1", Places.of().cache
     checkout = version / "course"
@@ -35,7 +35,7 @@ def make_version(prefix: Path) -> Path:
 
 
 def asked(version: Path, program: str, **variables: str) -> str:
-    """Run `program` with this environment's interpreter and the package in `version`; return the output."""
+    """Run the Python code `program` with the package in the folder `version`; return the output."""
     command = [Places.of().python, "-c", program]
     environment = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "PYTHONPATH": str(version / "course")}
     done = subprocess.run(

@@ -13,7 +13,7 @@ from course_pkg.installation.bundle import install_script, package_index, write_
 
 
 def test_apt_finds_a_package_of_the_bundle(tmp_path: Path) -> None:
-    """With the index, apt lists the package with the right size and checksum."""
+    """The package index of the bundle contains the package's name, file name, size and checksum."""
     control = tmp_path / "source" / "DEBIAN" / "control"
     control.parent.mkdir(parents=True)
     control.write_text(
@@ -28,7 +28,7 @@ def test_apt_finds_a_package_of_the_bundle(tmp_path: Path) -> None:
 
 
 def test_the_script_is_correct_shell(tmp_path: Path) -> None:
-    """The shell accepts the script; the script names each package, and contains no internet address."""
+    """The install script is valid shell, names each package, and contains no internet address."""
     script = install_script(["python3", "g++"])
     subprocess.run(["sh", "-n"], input=script, text=True, check=True)
     assert "--no-install-recommends python3 g++\n" in script

@@ -22,7 +22,7 @@ from tests.installation.installations import ROOT
 
 @pytest.fixture
 def prefix(tmp_path: Path) -> Prefix:
-    """Return a prefix with the current version "1"."""
+    """Return an installation folder (the prefix) in which version "1" is the current version."""
     made = Prefix(tmp_path / "prefix", tmp_path / "bin")
     made.claim()
     made.switch(_version(made, "1"))
@@ -42,7 +42,7 @@ def _version(prefix: Prefix, name: str) -> Path:
 def test_an_upgrade_keeps_a_version_that_is_in_use(prefix: Prefix) -> None:
     """After an upgrade, the command `course` runs the new version.
 
-    The installer removes an old version when no process uses this version.
+    The installer removes an old version as soon as no process uses it.
     """
     old, new = prefix.versions / "1", _version(prefix, "2")
     command = prefix.bin / "course"
@@ -58,7 +58,7 @@ def test_an_upgrade_keeps_a_version_that_is_in_use(prefix: Prefix) -> None:
 
 
 def test_an_uninstall_removes_what_the_installation_made(prefix: Prefix) -> None:
-    """Even without --bin, uninstall() finds and removes the links.
+    """Even without the option --bin, uninstall() finds and removes the links to the command `course`.
 
     uninstall() does not remove files of other programs.
     """
@@ -124,7 +124,7 @@ def test_a_full_disk_leaves_the_current_version(
 
 
 def test_bash_completes_commands_and_options() -> None:
-    """The completion script is generated from the table of commands."""
+    """The script for bash completion is generated from the table of commands."""
     script = subprocess.check_output([ROOT / "course", "completion"], text=True)
     words = 'COMP_WORDS=(course {}); COMP_CWORD={}; _course; echo "${{COMPREPLY[@]}}"'
     for typed, number, expected in (("unins", 1, "uninstall"), ("install --pre", 2, "--prefix")):

@@ -1,4 +1,4 @@
-"""Functions that run `course` as a user does, and that find processes that still run."""
+"""Functions that run `course` as a user does, and functions that find running processes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def user_environment() -> dict[str, str]:
 def running(*arguments: str, before: Sequence[str] = (), **variables: str) -> Iterator[subprocess.Popen[str]]:
     """Run `course lab` or `course run` during the `with` block.
 
-    `before` is a command prefix.
+    `before` contains the words of the command line that come before `course`.
     """
     with subprocess.Popen(
         [*before, ROOT / "course", *arguments],
@@ -94,13 +94,13 @@ def having(pattern: bytes, pids: list[int]) -> list[int]:
 
 
 def network_of(pid: int) -> list[str]:
-    """Return a command prefix that runs a command in the network of a process."""
+    """Return the words of a command line that run another command in the network of a process."""
     other = [kind for kind in ("user", "net") if os.readlink(f"/proc/{pid}/ns/{kind}") != own_namespace(kind)]
     return ["nsenter", "-t", str(pid), *(f"--{kind}" for kind in other), "--preserve-credentials", "--"]
 
 
 def own_namespace(kind: str) -> str:
-    """Return the identifier of this process's namespace; `kind` is the type, such as net."""
+    """Return the identifier of a namespace of the current process; `kind` is its kind, such as net."""
     return os.readlink(f"/proc/self/ns/{kind}")
 
 
@@ -113,7 +113,7 @@ def network_namespace(pid: int) -> str:
 
 
 def listening(pids: list[int]) -> set[tuple[str, int]]:
-    """Return the IPv4 addresses and ports on which the processes listen, in all networks."""
+    """Return the IPv4 addresses and ports on which the processes listen, in any network namespace."""
     found = set()
     for pid in pids:
         with suppress(OSError):  # the process may have ended

@@ -18,7 +18,7 @@ PS1='mine> '
 
 @pytest.fixture
 def home(tmp_path: Path) -> Path:
-    """Create a home folder with a ~/.bashrc that sets another Python, another master and an alias."""
+    """Create a home folder; its ~/.bashrc selects another Python and another master, and defines an alias."""
     (tmp_path / ".bashrc").write_text(HOSTILE)
     (tmp_path / "shims").mkdir()
     for name in ("python3", "rosservice"):
@@ -43,7 +43,7 @@ def shell(home: Path, commands: str) -> str:
 
 
 def test_the_course_overrides_the_settings_in_bashrc(home: Path) -> None:
-    """The shell uses the course's Python, tools and master, and the user's aliases."""
+    """The shell uses the course's Python, tools and master, but also the aliases of the user."""
     look = "echo py:$(python3 -c 'print(3)') uri:$ROS_MASTER_URI ip:${ROS_IP-none}"
     seen = shell(home, f"{look}; mine; rosservice list")
     assert "py:3 uri:http://localhost:" in seen

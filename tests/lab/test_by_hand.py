@@ -1,4 +1,4 @@
-"""Tests of `jupyter lab` in the course's environment: it has a master and the settings of `course lab`."""
+"""Tests of `jupyter lab` without `course lab`: it has a master and the same settings as `course lab`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ READY = 60.0  # s
 
 @pytest.fixture(scope="module")
 def by_hand(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """Start `jupyter lab` by its path and without any ROS variable, as an editor or Binder does."""
+    """Start `jupyter lab` without ROS's environment variables, as an editor or Binder does."""
     port = free_port()
     command = [Places.of().venv / "bin" / "jupyter", "lab", "--no-browser", "--allow-root"]
     options = ["--IdentityProvider.token=t", f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]
@@ -66,7 +66,7 @@ def test_kernels_and_terminals_share_ros_and_a_master(by_hand: Service) -> None:
 
 
 def test_the_settings_are_those_of_course_lab(by_hand: Service) -> None:
-    """The course's files are hidden, checkpoints are in the cache, and the course's defaults are used."""
+    """The course's own files are hidden, checkpoints are in the cache, and the course's settings are used."""
     names = {entry["name"] for entry in by_hand.get("/api/contents")["content"]}
     assert "notebooks" in names
     assert not {"course_pkg", "setup.py"} & names

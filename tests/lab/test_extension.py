@@ -1,4 +1,4 @@
-"""Tests of the server extension: TCP_NODELAY on a kernel's websocket, and the storage of checkpoints."""
+"""Tests of the server extension: the option TCP_NODELAY of kernel websockets, and stored checkpoints."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Log:
 
 
 def completed(work: Coroutine[None, None, object]) -> object:
-    """Run `work` on another thread, because another test's browser may use this thread's event loop."""
+    """Run the coroutine `work` on another thread, because a browser test may use this thread's event loop."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, work).result()
 
@@ -135,7 +135,7 @@ def test_two_notebooks_of_one_name_have_separate_checkpoints(kept: CachedCheckpo
 
 
 def test_no_path_leads_out_of_the_checkout(kept: CachedCheckpoints) -> None:
-    """A path that leads out of the checkout gets no checkpoint."""
+    """If a path leads out of the checkout, checkpoint_path() raises an HTTPError with status 404."""
     with pytest.raises(HTTPError, match="404"):
         kept.checkpoint_path("checkpoint", "../elsewhere.ipynb")
 
@@ -162,7 +162,7 @@ def test_the_root_folder_lists_only_files_for_students(tmp_path: Path) -> None:
 
 
 def test_a_notebook_comes_with_the_language_of_its_kernel() -> None:
-    """The loaded notebook has the kernel's language_info."""
+    """When the server loads a notebook, the notebook's metadata contain the kernel's language_info."""
     said = IPythonKernel.language_info
     assert kernel_language() == said
     manager = CourseContents(root_dir=str(ROOT))
@@ -172,7 +172,7 @@ def test_a_notebook_comes_with_the_language_of_its_kernel() -> None:
 
 
 def test_every_file_of_the_repository_is_listed_or_hidden_on_purpose() -> None:
-    """Each file in the repository's root folder is either in HIDDEN or needed by students."""
+    """HIDDEN lists each file in the root folder except dot files, `notebooks` and `figures`."""
     tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     top = {path.partition("/")[0] for path in tracked.splitlines()}
     assert {name for name in top if not name.startswith(".")} == {*HIDDEN, "notebooks", "figures"}

@@ -63,7 +63,7 @@ def notebook(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def served(notebook: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """Start one server with two installed extensions for all tests that do not stop it."""
+    """Start one server with two installed extensions for all tests that do not stop the server."""
     folder = tmp_path_factory.mktemp("installed")
     enabled = folder / "jupyter_server_config.d" / "sockets.json"
     front_end = folder / "labextensions" / "example" / "package.json"
@@ -93,7 +93,7 @@ def test_extensions_that_a_user_installs_are_loaded(served: Service) -> None:
 
 
 def test_each_start_opens_only_its_notebook(served: Service, notebook: str) -> None:
-    """The page opens only the notebook of the current start."""
+    """The page opens only the notebook of the latest start."""
     name = f"notebook:{Path(notebook).relative_to(ROOT)}"
     with lab(str(ROOT / "notebooks" / "00_start_the_graph.ipynb")) as (process, address):
         data = Service(process, address).get("/lab/api/workspaces/default")["data"]

@@ -15,7 +15,7 @@ from tests.installation.installations import asked, make_version
 
 @pytest.fixture
 def places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Places:
-    """Return the folders of an installation with two notebooks; the user's folder is missing."""
+    """Return the folders of an installation with two notebooks; the user's own folder does not exist."""
     notebooks = tmp_path / "version" / "course" / "notebooks"
     notebooks.mkdir(parents=True)
     (tmp_path / "version" / RECORD).write_text("{}")
@@ -45,7 +45,7 @@ def test_an_upgrade_adds_notebooks_and_never_overwrites_the_users_work(
 
 
 def test_a_deleted_notebook_is_copied_again(places: Places) -> None:
-    """A user can delete a notebook to get the original notebook again."""
+    """If the user deletes a notebook, the course copies the original notebook again."""
     make_own_files(places)
     (places.own / "notebooks" / "05.ipynb").unlink()
     make_own_files(places)
@@ -55,7 +55,7 @@ def test_a_deleted_notebook_is_copied_again(places: Places) -> None:
 def test_a_folder_that_cannot_be_created_is_one_message(
     places: Places, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The message contains the folder, and the variable that selects another folder."""
+    """The message contains the folder, and the environment variable that selects another folder."""
     monkeypatch.setenv("COURSE_HOME", "/proc/none/ros-course")
     with pytest.raises(SetupError, match=r"/proc/none/ros-course cannot be written \(.*set COURSE_HOME to"):
         make_own_files(places)

@@ -50,7 +50,7 @@ def test_an_unknown_command_is_refused() -> None:
 
 
 def test_a_master_that_the_user_names_is_used() -> None:
-    """If ROS_MASTER_URI is set, `course run` uses this master."""
+    """If ROS_MASTER_URI is set, `course run` uses the master at this address."""
     assert (
         course_run("printenv", "ROS_MASTER_URI", ROS_MASTER_URI="http://robot:1").stdout == "http://robot:1\n"
     )
@@ -96,7 +96,7 @@ def test_nothing_outlives_a_killed_run() -> None:
 )
 def test_the_background_ends_with_the_command(script: str, tmp_path: Path) -> None:
     """When a command exits, its background processes are killed."""
-    tag = str(tmp_path)  # Only the processes of this test have this text in their environment.
+    tag = str(tmp_path)  # Only the processes of this test have the text of `tag` in their environment.
     answer = course_run("bash", "-c", f"{script}\nexit 5", TAG=tag)
     assert answer.returncode == 5, answer.stderr
     assert [pid for pid in tagged(tag) if alive(pid)] == []
@@ -148,5 +148,5 @@ def tagged(tag: str) -> list[int]:
 
 
 def names(pids: list[int]) -> list[str]:
-    """Return the command names of these processes."""
+    """Return the command names of the running processes in `pids`."""
     return [Path(f"/proc/{pid}/comm").read_text().strip() for pid in pids if alive(pid)]

@@ -1,4 +1,4 @@
-"""Tests that `course lab` opens its own server, although another program takes the chosen port."""
+"""Tests that `course lab` opens its own server, even if another program takes the chosen port."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from tests.lab.commands import lab
 from tests.lab.test_jupyterlab import Service
 
-# This program writes the server's file as JupyterLab does, and ends because it cannot listen.
+# This program writes a file with the server's address, as JupyterLab does, and exits with an error.
 SERVER_WITHOUT_PORT = """
 import json, os, pathlib, sys
 folder, port = pathlib.Path(sys.argv[1]), int(sys.argv[2])
@@ -29,7 +29,7 @@ sys.exit(1)
 
 
 class Refusing(BaseHTTPRequestHandler):
-    """The server of another user, which refuses each token."""
+    """A server of another user; the server refuses every token."""
 
     def do_GET(self) -> None:
         """Refuse a request."""

@@ -46,11 +46,11 @@ class Terminal:
         self.run("stty -echo")
 
     def type(self, line: str) -> None:
-        """Type a line and the Enter key."""
+        """Type a line, and press Enter."""
         self._shell.sendline(line)
 
     def keys(self, text: str) -> None:
-        """Type `text` without the Enter key."""
+        """Type `text`, and do not press Enter."""
         self._shell.send(text)
 
     def wait_for(self, text: str) -> str:
@@ -81,7 +81,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
             request = Request(f"http://{parts.netloc}/api/terminals", data=b"", headers=headers)
             urlopen(request, timeout=20).close()  # noqa: S310
             shells = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
-            # A shell that starts has child processes with the same command line, but with higher ids.
+            # While a shell starts, its child processes have the same command line, but higher process ids.
             terminal = Terminal(min(shells))
             rosout = eventually(lambda: having(b"rosout/rosout\0", below(process)))
             assert rosout  # If a test starts another node /rosout, the master's own /rosout exits.
@@ -152,7 +152,7 @@ def test_roscore_starts_a_new_master_after_the_lab_master_has_ended(terminal: Te
     assert all_gone([former])
     terminal.type("roscore")
     terminal.wait_for("started core service [/rosout]")
-    terminal.keys("\x1a")  # Ctrl-Z, so that the terminal accepts other commands
+    terminal.keys("\x1a")  # Ctrl-Z suspends the job, so that the terminal accepts other commands.
     terminal.wait_for("Stopped")
     terminal.run("bg")
     assert int(terminal.run(master)) != former

@@ -120,7 +120,7 @@ def test_the_simulator_mirrors_every_state_while_it_draws(simulator: NodeProcess
 
 
 def test_an_invalid_message_is_ignored(simulator: NodeProcess, kernel: Kernel) -> None:
-    """The node prints one warning about invalid states, and mirrors the next valid state."""
+    """The node prints one warning about the invalid states, and mirrors the next valid state."""
     kernel.run(LISTEN)
     kernel.run(
         "shown = node.subscribe('/mirrored_joints', JointState); connected(shown._subscriber)\n"

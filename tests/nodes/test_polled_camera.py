@@ -57,7 +57,7 @@ def test_an_impossible_size_is_refused(asked: tuple[int, int], words: str) -> No
 
 @pytest.mark.usefixtures("camera")
 def test_a_picture_shows_the_customers_at_the_counter() -> None:
-    """The picture shows the customers that the node shop_camera lets in."""
+    """The picture shows the customers who were added with the service of the node shop_camera."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         for customers in (0, 3, 5):

@@ -23,7 +23,7 @@ def cells(request: pytest.FixtureRequest) -> list[Cell]:
 
 
 def prose(cells: list[Cell]) -> str:
-    """Return the whole prose of a chapter."""
+    """Return the text of all Markdown cells of a chapter."""
     return "\n\n".join(cell["source"] for cell in cells if cell["cell_type"] == "markdown")
 
 

@@ -21,7 +21,7 @@ def shown(cell: Cell) -> str:
 @pytest.mark.timeout(300)
 def test_without_a_compiler_run_all_reaches_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
     """The checks are "not attempted", and their text contains the command that installs the compiler."""
-    monkeypatch.setenv("CXX", "/nowhere/c++")  # CMake also uses this variable.
+    monkeypatch.setenv("CXX", "/nowhere/c++")  # CXX selects the compiler, and CMake also reads this variable.
     notebook = read(next((ROOT / "solutions").glob("13_*.ipynb")))
     executed: list[Notebook] = []
     assert run_all({"13 without a compiler": notebook}, lambda _, ran: executed.append(ran)) == {}

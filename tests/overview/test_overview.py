@@ -38,7 +38,7 @@ def store(verdict: str, *checks: str) -> None:
 
 
 def complete(chapter: str) -> None:
-    """Store a pass for each part of a chapter."""
+    """Store the result "passed" for each part of a chapter."""
     store("passed", *(part.check for part in parts_of(chapter)))
 
 
@@ -61,7 +61,7 @@ def test_at_the_beginning_the_first_chapter_is_next() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_fulfilled_goals_are_counted() -> None:
-    """If a part has not passed, the overview shows the points of its last check."""
+    """If a part has not passed, the overview shows the points that the last check gave."""
     StudentRecord().store("05.3", {"check": "05.3", "verdict": "not yet", "points": 1.5})
     shown = progress("05")
     assert str(shown).startswith("Chapter 05, Write a server: 0 of 5 parts passed, 1.5 of 11 points")
@@ -126,7 +126,7 @@ def test_at_the_end_there_is_nothing_left() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_an_unknown_chapter_is_refused() -> None:
-    """The error message contains the first and the last chapter number."""
+    """The error message for an unknown chapter contains the first and the last chapter number."""
     with pytest.raises(UnknownCheck, match=r"no chapter '99'. Give a number from 00 to 16"):
         progress("99")
     assert str(progress("5")) == str(progress("05"))
@@ -183,7 +183,7 @@ def test_the_table_has_a_row_for_each_part_and_prediction() -> None:
 
 
 class Tags(HTMLParser):
-    """Collects the tags of a page. Asserts that all tags are closed in the right order."""
+    """Collects the tags of a page. Asserts that the tags of the page are closed in the right order."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -254,7 +254,7 @@ def test_without_checks_the_table_of_predictions_shows_no_progress() -> None:
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_a_chapter_has_the_title_and_the_name_of_its_notebook(path: Path) -> None:
-    """The package and the notebook contain the same title and file name."""
+    """For each chapter, the package and the notebook contain the same title and file name."""
     first = read(path)["cells"][0]["source"].splitlines()[0]
     assert first == f"# {title_of(path.name[:2])}"
     assert notebook_of(path.name[:2]) == path.name
@@ -283,7 +283,7 @@ def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None
 
 
 def test_two_kernels_lose_no_prediction(state: Path) -> None:
-    """If two kernels store one prediction each, the file contains both predictions."""
+    """If two kernels store one prediction each, the file of predictions contains both of them."""
     one, other = PredictionStore(), PredictionStore()
     PredictionModel("05.a", "?", (), one).answer("yes")
     PredictionModel("05.b", "?", (), other).answer("no")

@@ -27,7 +27,7 @@ from tests.support import eventually
 
 @dataclass
 class Paper:
-    """Replaces the functions that create stages and run tools; it causes no fault, and records all calls."""
+    """Fake functions in place of those that cause faults and run tools; they only record each call."""
 
     done: list[str] = field(default_factory=list)
     fails: bool = False
@@ -65,7 +65,7 @@ class Sheet:
 
 
 class Lab:
-    """A panel's model with fake stages, and the latest state that the model has sent."""
+    """The model of a panel that causes no real faults, and the latest state that the model has sent."""
 
     def __init__(self, path: Path, *chosen: str) -> None:
         self.paper = Paper()
@@ -76,7 +76,7 @@ class Lab:
         self.state.update(self.model.overview())
 
     def begin(self, name: str) -> dict[str, Plain]:
-        """Open the case with this fault, wait for the symptom, and return the state."""
+        """Open the case with the fault `name`, wait for the symptom, and return the state."""
         number = next(case.number for case in cases() if case.fault.name == name)
         self.model.open(number)
         self.settle()
@@ -94,14 +94,14 @@ class Lab:
 
 @pytest.fixture
 def lab(tmp_path: Path) -> Iterator[Lab]:
-    """Return a model with all cases, which causes no real faults."""
+    """Return a model of all cases; the model causes no real faults."""
     lab = Lab(tmp_path)
     yield lab
     lab.model.close()
 
 
 def test_numbers_of_cases_do_not_reveal_the_fault() -> None:
-    """The numbers of the cases are not in the order of the catalogue."""
+    """The order of the case numbers is different from the order of the faults in the catalogue."""
     everything = cases()
     assert [case.number for case in everything] == list(range(1, len(everything) + 1))
     assert [case.fault for case in everything] != list(every_fault())
@@ -125,7 +125,7 @@ def test_each_case_has_plausible_options(case: Case) -> None:
 
 
 def test_right_answers_are_not_always_in_one_place() -> None:
-    """The position of the right diagnosis differs between the cases."""
+    """Among all cases, the right diagnosis occurs at every position."""
     places = {case.diagnoses.index(case.fault.diagnosis) for case in cases()}
     assert places == set(range(OPTIONS))
 
@@ -143,7 +143,7 @@ def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
 
 
 def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
-    """While a tool runs, a click has no effect. The page shows only the latest eight outputs of tools."""
+    """While a tool runs, a click has no effect. The page shows only the output of the latest eight tools."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -164,7 +164,7 @@ def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
 def test_a_wrong_answer_shows_the_reason_of_the_chosen_fault(lab: Lab) -> None:
     """After a wrong answer, the page explains the chosen fault.
 
-    A right answer after a wrong answer does not count as a first answer.
+    If the first answer was wrong, a later right answer does not count as a first answer.
     """
     case = lab.begin("stale")
     wrong = next(
@@ -233,7 +233,7 @@ def test_undo_waits_for_the_running_tool(lab: Lab) -> None:
 
 
 def test_play_prepares_a_case_for_a_page_without_a_kernel(lab: Lab) -> None:
-    """play() records the symptom of a case and the outputs of the tools, but no answer."""
+    """play() shows the symptom of a case and the outputs of the given tools, but no answer."""
     lab.model.play("stale", ["services", "ping"])
     assert lab.paper.done == ["cause stale", "again stale", "services stale", "ping stale", "undo stale"]
     assert [each["tool"] for each in lab.case["looks"]] == ["again", "services", "ping"]

@@ -39,13 +39,13 @@ MODELS = [
 
 @pytest.fixture
 def nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Return the address of a master that does not exist."""
+    """Set ROS_MASTER_URI to the address of a master that does not exist."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
 
 
 @pytest.mark.parametrize("kind", [GraphPanel, ServicePanel, TypeBrowser], ids=lambda kind: kind.__name__)
 def test_a_graph_that_cannot_be_read_is_explained(nowhere: None, kind: type[Panel]) -> None:
-    """The panel shows the error message and an explanation."""
+    """If a panel cannot read the graph, it shows the error message and an explanation."""
     panel = kind()
     assert "No ROS master" in panel.trouble
     assert panel.explained["cause"].startswith("No master answers")
@@ -67,7 +67,7 @@ def test_an_error_of_a_panel_itself_is_explained_if_it_is_known(nowhere: None) -
 
 
 def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaster) -> None:
-    """A wire view of a failed call shows the error message and an explanation."""
+    """After a failed call, the panel WireView shows the error message and an explanation."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_MASTER_URI", master.uri)
         with caused("returns_none"):
@@ -88,7 +88,7 @@ def test_each_panel_is_framed(entry: Path) -> None:
 
 
 class Polled:
-    """A value, the poller that reads this value, and everything that the poller reports."""
+    """A value, a poller that reads the value, and a list of everything that the poller reports."""
 
     def __init__(self) -> None:
         self.now: object = 1
@@ -114,7 +114,7 @@ class Polled:
 
 @pytest.fixture
 def polled() -> Iterator[Polled]:
-    """Yield a polled value, and stop its poller after the test."""
+    """Yield a Polled object, and stop its poller after the test."""
     polled = Polled()
     yield polled
     polled.poller.stop()

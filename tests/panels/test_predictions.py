@@ -32,7 +32,7 @@ def store(tmp_path: Path) -> PredictionStore:
 
 @pytest.fixture
 def model(store: PredictionStore) -> PredictionModel:
-    """Return the prediction of chapter 05."""
+    """Return the model of a prediction in chapter 05."""
     return PredictionModel("05.reply_none", "What does the client see?", CHOICES, store)
 
 
@@ -73,13 +73,13 @@ def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
 def test_numbers_and_texts_are_compared_by_value(
     model: PredictionModel, predicted: str, actual: object, stretch: str
 ) -> None:
-    """The comparison ignores differences between 2.50 and 2.5, and between upper and lower case."""
+    """In the comparison, 2.50 is equal to 2.5, and upper and lower case are equal."""
     model.answer(predicted)
     assert stretch in model.compare(actual).verdict
 
 
 def test_the_summary_is_of_one_chapter_in_order(store: PredictionStore) -> None:
-    """The table lists the predictions of one chapter, sorted by key."""
+    """of_chapter() returns the predictions of one chapter, sorted by key."""
     for key in ("05.b", "06.a", "05.a"):
         PredictionModel(key, "?", (), store).answer("yes")
     assert [record.key for record in of_chapter(store.read().values(), "05")] == ["05.a", "05.b"]
@@ -177,7 +177,7 @@ def choices_model(choice_store: ChoiceStore) -> ChoicesModel:
 
 
 def decide(choices_model: ChoicesModel, *options: str) -> None:
-    """Choose the first option for the first case, the second option for the second case, and so on."""
+    """Choose `options[0]` for the first case, `options[1]` for the second case, and so on."""
     for number, option in enumerate(options):
         choices_model.choose(number, option)
 
@@ -204,7 +204,7 @@ def test_reasons_stay_hidden_until_every_case_is_decided(choices_model: ChoicesM
 
 
 def test_choices_cannot_change_while_the_reasons_are_shown(choices_model: ChoicesModel) -> None:
-    """While the reasons are visible, a new choice is not stored."""
+    """While the page shows the reasons, a new choice is not stored."""
     decide(choices_model, *["a topic"] * 3)
     choices_model.compare()
     choices_model.choose(1, "a service")
@@ -243,7 +243,7 @@ def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store:
 def test_a_mistake_of_the_author_raises_an_error(
     cases: list[tuple[str, str, str]], stretch: str, choice_store: ChoiceStore
 ) -> None:
-    """If the right answer of a case is not an option, an error is raised."""
+    """If a case has an unknown answer, is given twice, or has no reason, NotAChoice is raised."""
     with pytest.raises(NotAChoice, match=stretch):
         ChoicesModel("03.cases", "?", OPTIONS, cases, choice_store)
 

@@ -57,7 +57,7 @@ TYPES = {
 
 
 def find_type(name: str) -> ServiceType:
-    """Return one of the two known types."""
+    """Return one of the two known types, or raise UnknownType."""
     if name not in TYPES:
         raise UnknownType(name, f"{name} is not known here.")
     return TYPES[name]
@@ -75,7 +75,7 @@ class Harness:
 
     @property
     def state(self) -> dict[str, Plain]:
-        """Return the latest state."""
+        """Return the latest value of each part of the model's state."""
         return {name: value for message in self.messages for name, value in message.items()}
 
     def ended(self) -> dict[str, Plain]:
@@ -113,7 +113,7 @@ def test_a_call_is_two_messages(harness: Harness) -> None:
 
 
 def test_errors_are_shown_at_their_fields_and_nothing_is_called(harness: Harness) -> None:
-    """Each wrong field shows its allowed values, and no request is sent."""
+    """Each wrong field shows its allowed values, and the model sends no request."""
     harness.model.start({"length": "abc", "width": "5.2", "height": "1e39"}, "5")
     check = harness.state["check"]
     assert set(check["errors"]) == {"length", "height"}
@@ -125,14 +125,17 @@ def test_errors_are_shown_at_their_fields_and_nothing_is_called(harness: Harness
 
 @pytest.mark.parametrize("deadline", ["", "0", "-1", "soon", "nan", "inf", "1e9"])
 def test_a_deadline_is_a_number_of_seconds(harness: Harness, deadline: str) -> None:
-    """An invalid timeout is reported like a wrong field."""
+    """For an invalid timeout, the panel shows an error at the field of the timeout."""
     harness.model.start(GOOD, deadline)
     assert "at most 3600" in harness.state["check"]["errors"]["@deadline"]
     assert harness.caller.requests == []
 
 
 def test_the_commands_follow_the_draft(harness: Harness) -> None:
-    """Both commands contain the typed values. If a value is wrong, the panel shows no commands."""
+    """The shell command and the Python code contain the typed values.
+
+    If a value is wrong, the panel shows no command and no code.
+    """
     harness.model.edit(GOOD)
     check = harness.state["check"]
     assert check["shell"] == "rosservice call /getGeometry 1.2 5.2 8.9"
@@ -142,7 +145,7 @@ def test_the_commands_follow_the_draft(harness: Harness) -> None:
 
 
 def test_a_second_call_waits_for_the_first(harness: Harness) -> None:
-    """While a call runs, no second call starts."""
+    """While a call runs, the model does not start a second call."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     harness.model.start(GOOD, "5")
@@ -254,7 +257,7 @@ def test_logger_services_come_last() -> None:
 
 
 def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(harness: Harness) -> None:
-    """If the student selects another service during a call, the response of the call is not shown."""
+    """If the student selects another service during a call, the panel does not show the call's response."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     eventually(lambda: harness.caller.requests)
@@ -266,7 +269,7 @@ def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(harness
 
 
 def test_recording_keeps_request_and_outcome(harness: Harness) -> None:
-    """record() calls the service with each request, and stores the requests and the outcomes."""
+    """record() calls the service with each request, and stores each request and its outcome."""
     kept = harness.model.record([{"length": 1.2, "width": 5.2, "height": 8.9}, {}], "5")
     assert [each["draft"]["length"] for each in kept] == ["1.2", "0.0"]
     assert [each["outcome"]["rows"][0]["text"] for each in kept] == ["6.24", "0.0"]

@@ -111,7 +111,7 @@ def test_without_a_master_it_shows_the_reason(monkeypatch: pytest.MonkeyPatch, p
 
 
 def test_a_graph_panel_draws_the_real_graph() -> None:
-    """The drawing and the list contain the server and its service."""
+    """In the graph panel, the drawing and the list contain the server and its service."""
     panel = GraphPanel(live=False)
     assert 'data-key="service /getGeometry"' in panel.drawing
     assert [fact["name"] for fact in panel.facts] == ["/SERVER_NODE", "/getGeometry"]

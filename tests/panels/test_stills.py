@@ -170,12 +170,12 @@ def _traits(panel: object) -> State:
 
 @pytest.fixture(autouse=True)
 def _own_records(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Use an empty state folder."""
+    """Select an empty state folder for each test."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
 
 
 def test_each_kind_of_panel_has_a_picture() -> None:
-    """STILLS and STATES contain every kind of panel."""
+    """The dicts STILLS and STATES contain each kind of panel."""
     folders = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(STILLS) == folders == {panel for panel, _ in STATES.values()}
 
@@ -215,7 +215,7 @@ def test_values_that_differ_in_each_run_are_left_out() -> None:
 
 
 def test_turtles_are_shown_even_if_the_simulator_has_ended() -> None:
-    """The picture shows the turtles at their last positions."""
+    """After the simulator has ended, the picture still shows the turtles at their last positions."""
     drawn = STILLS["turtles"].draw(turtles_state())
     assert ">turtle1</text>" in drawn
     assert "<polyline" in drawn

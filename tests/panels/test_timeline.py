@@ -14,7 +14,7 @@ from course_pkg.ros import Event, Recording
 
 
 def call(key: str = "call 1", at: float = 0.0, **more: str) -> list[Event]:
-    """Return the events of a call that takes 1 s, with a handler that takes 0.6 s."""
+    """Return the events of a call of 1 s; the handler runs for 0.6 s."""
     who = {"caller": "/customer", "server": "/cashier", "thread": "MainThread", **more}
     caller, server, thread = who["caller"], who["server"], who["thread"]
     return [
@@ -28,7 +28,7 @@ def call(key: str = "call 1", at: float = 0.0, **more: str) -> list[Event]:
 
 
 def message(number: int, at: float, *hearers: str) -> list[Event]:
-    """Return a message and its callbacks."""
+    """Return the event of a published message, and the events of its callbacks."""
     key = f"message {number}"
     sent = Event("publish", "/robot", "/joints", at, at + 0.001, ", ".join(hearers), key, "MainThread")
     return [
@@ -41,7 +41,7 @@ def message(number: int, at: float, *hearers: str) -> list[Event]:
 
 
 def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | dict[str, str]) -> Recording:
-    """Return a recording of these events."""
+    """Return a recording of `events`, which lasts `length` s."""
     ordered = tuple(sorted(events, key=lambda event: event.start))
     return Recording(
         events=ordered, nodes=tuple(sorted({event.node for event in events})), length=length, **more
@@ -49,7 +49,7 @@ def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | di
 
 
 def drawn(found: Recording) -> list[tuple[str, str]]:
-    """For each arrow, return the kinds of the events at its start and at its end."""
+    """Return, for each arrow, the kind of the event at its start and the kind of the event at its end."""
     return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
 
 
@@ -59,7 +59,7 @@ def test_a_call_has_two_arrows() -> None:
 
 
 def test_what_was_not_recorded_is_not_drawn() -> None:
-    """If one of two connected events was not recorded, no arrow is drawn."""
+    """If only one of two connected events was recorded, no arrow is drawn."""
     handler = [event for event in call() if event.kind == "handler"]
     caller = [event for event in call() if event.kind != "handler"]
     callback = message(1, 1.0, "/simulator")[1:]
@@ -77,7 +77,7 @@ def test_a_call_that_timed_out_has_no_response() -> None:
 
 
 def test_a_call_that_never_ended() -> None:
-    """A call that has not ended has one arrow, from the caller's wait to the handler."""
+    """A call that has not ended has one arrow, from the caller's event "wait" to the handler's event."""
     wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
     handler = Event("handler", "/cashier", "/x", -2.9, None, "/customer", "call 1", "Thread-1")
     found = recording(wait, handler)
@@ -91,7 +91,7 @@ def test_a_message_has_an_arrow_to_each_callback() -> None:
 
 
 def test_threads_that_work_at_once_stand_below_each_other() -> None:
-    """Handlers that run at the same time are in different rows."""
+    """Handlers that run at the same time are in different rows of the timeline."""
     overlapping = [
         Event("handler", "/s", "/x", at, at + 1, "/c", f"call {at}", f"Thread-{at}") for at in (0, 0.5, 0.9)
     ]
@@ -113,7 +113,7 @@ def test_a_thread_keeps_its_row() -> None:
 
 
 def test_a_call_within_a_callback_is_inset() -> None:
-    """An event during another event of the same thread is drawn inside that event."""
+    """An event that occurs during another event of the same thread is drawn inside that event."""
     callback = Event("callback", "/customer", "/go", -0.1, 1.5, thread="/go")
     after = Event("callback", "/customer", "/go", 2.0, 2.1, thread="/go")
     found = recording(callback, *(e for e in call(thread="/go") if e.node == "/customer"), after)
@@ -130,7 +130,7 @@ def test_fifty_overlapping_calls() -> None:
 
 
 def test_the_state_is_bounded() -> None:
-    """If there are too many events, a note contains the number of omitted events."""
+    """If there are too many events, a note contains the number of events that are not drawn."""
     stream = [event for n in range(5000) for event in message(n, n / 1000, "/simulator")]
     kept = state(recording(*stream, *call(at=4.0)))
     kinds = [kept["kinds"][kind] for kind in kept["columns"]["kind"]]
@@ -145,7 +145,7 @@ def test_the_state_is_bounded() -> None:
 
 
 def test_too_many_calls() -> None:
-    """If there are too many events, only the first events are shown, and a note contains the numbers."""
+    """If there are too many events, only the first events are drawn; a note says how many."""
     calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
     kept = state(recording(*calls, length=1001.0))
     assert len(kept["columns"]["kind"]) == MOST
@@ -176,7 +176,7 @@ def test_all_that_is_shown_comes_from_the_recording() -> None:
 
 
 def test_who_waited_how_long() -> None:
-    """Look-up, connection and wait count as waiting time."""
+    """The waiting time of a call includes the look-up, the connection and the wait for the response."""
     waits = waits_of(recording(*call(), *call("call 2", 2.0), *message(1, 2.0, "/simulator")))
     (wait,), (stream,) = waits["calls"], waits["streams"]
     assert (wait["node"], wait["service"], wait["servers"]) == ("/customer", "/x", ["/cashier"])

@@ -19,7 +19,7 @@ EMPTY: Connections = {"type": "", "publishers": [], "subscribers": [], "sources"
 
 
 class FakeProcess:
-    """Replaces the topic process: it stores the model's state for the page and the model's commands."""
+    """Replaces the topic process, and stores the commands and the state that the model sends."""
 
     def __init__(self, kind: MessageType | None = FLOAT, topic: str = "/speed") -> None:
         self.state: dict[str, Plain] = {}
@@ -62,7 +62,7 @@ def test_an_invalid_name_is_refused(name: str) -> None:
 
 
 def test_a_topic_without_a_type_waits_for_one() -> None:
-    """The panel uses the type of a publisher, not the type of a subscriber."""
+    """A panel without a type uses the type of a publisher, and not the type of a subscriber."""
     process = FakeProcess(None)
     assert "No node publishes /speed yet" in process.state["about"]["problem"]
     process.model.see({**EMPTY, "subscribers": [{"node": "/listener", "type": "*"}]})
@@ -82,7 +82,7 @@ def test_the_first_message_gives_the_type() -> None:
 
 
 def test_an_unknown_type_is_reported() -> None:
-    """If a topic's type is unknown on this machine, the panel shows a message."""
+    """If a topic's type is not installed on this machine, the panel shows a message."""
     process = FakeProcess(None)
     process.model.see({**EMPTY, "publishers": [{"node": "/talker", "type": "their_pkg/Thing"}]})
     assert "their_pkg/Thing" in process.state["about"]["problem"]
@@ -179,7 +179,7 @@ def test_a_message_without_fields_is_a_message() -> None:
 
 
 def test_reports_come_in_parts() -> None:
-    """A report may contain only some of the values; the panel keeps all other values."""
+    """If a report contains only some values, the panel does not change the other values."""
     process = FakeProcess()
     process.model.report({"count": 3, "trouble": "No master."})
     process.model.report({"statistics": {"rate": 10.0}})
@@ -237,15 +237,15 @@ PUBLISHER: PublisherReport = {
     ],
 )
 def test_the_sentence_about_a_message(change: PublisherReport, words: str) -> None:
-    """The sentence says what happened to the published message."""
+    """published() returns a sentence that says what happened to the published message."""
     assert published({**PUBLISHER, **change}, "/panel") == words
 
 
 def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connections:
     """Return the connections of a topic with at most one publisher and one subscriber.
 
-    `publisher` and `subscriber` are the types of the two nodes; "" means that there is no such node. If `md5`
-    is not empty, the panel is connected to the publisher, whose type has this MD5 sum.
+    `publisher` is the type of the publisher, and `subscriber` is that of the subscriber; "" means no such
+    node. If `md5` is not empty, the panel is connected to the publisher, whose type has this MD5 sum.
     """
     sources = [{"node": "/talker", "type": publisher, "md5": md5}] if md5 else []
     publishers = [{"node": "/talker", "type": publisher}] if publisher else []
@@ -254,7 +254,7 @@ def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connection
 
 
 def test_different_types_are_reported_for_each_node() -> None:
-    """The warning contains both nodes and both MD5 sums."""
+    """For each node with another type, there is a warning with the name of the node and the MD5 sums."""
     said = mismatches(FLOAT, seen("std_msgs/String", "std_msgs/UInt32"), "/panel", message_type)
     assert [words.split()[0] for words in said] == ["/talker", "/listener"]
     assert f"std_msgs/String (MD5 {STRING.md5[:8]}…)" in said[0]

@@ -113,7 +113,7 @@ def test_quick_shows_and_hides_leave_at_most_one_node(panel: TopicPanel, master:
 
 
 def test_another_type_is_reported(panel: TopicPanel, kernel: Kernel) -> None:
-    """The panel shows a publisher with another type."""
+    """If the type of a publisher differs from the type of the panel, the panel shows this publisher."""
     kernel.run("""
         import rospy
         from std_msgs.msg import String

@@ -27,7 +27,7 @@ def filmed(*snapshots: Observation) -> TurtleRecording:
 
 
 def test_a_turtle_that_rests_makes_one_row() -> None:
-    """While a turtle does not move, the recording gets no new rows."""
+    """While a turtle does not move, no rows are added to the recording."""
     recording = filmed(*[at(3.0, speed=0.0)] * 1200)
     assert recording.rows == [(0, 0, 3000, 2000, 0, UP)]
     assert recording.length == 1199 * LOOK
@@ -49,13 +49,13 @@ def test_the_usual_pen_until_more_is_known() -> None:
 
 
 def test_a_colour_that_is_read_twice_at_low_speed_is_the_pen_colour() -> None:
-    """A colour that the sensor reads twice is the pen colour."""
+    """If the sensor of a slow turtle reads a colour twice, the recording uses it as the pen colour."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, RED), at(3.2, RED), at(3.3, RED))
     assert [recording.palette[row[5]] for row in recording.rows[-2:]] == [RED, RED]
 
 
 def test_a_crossed_line_does_not_change_the_pen() -> None:
-    """A single pose with another colour does not change the pen colour."""
+    """If only a single pose has another colour, the pen colour does not change."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, RED), at(3.3, USUAL))
     assert {row[5] for row in recording.rows[1:]} == {recording.palette.index(USUAL)}
 
@@ -68,7 +68,7 @@ def test_a_slow_turtle_on_plain_paper_has_its_pen_up() -> None:
 
 
 def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
-    """While a turtle is fast, the background colour at its sensor does not mean that the pen is up."""
+    """If a fast turtle's sensor reads the background colour, the pen is not recorded as up."""
     fast = [at(3.0 + 0.25 * step, speed=5.0) for step in range(8)]
     recording = filmed(*fast)
     assert recording.rows[-1][5] != UP

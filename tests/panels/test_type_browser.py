@@ -25,7 +25,7 @@ from tests.types.conftest import build, package
 
 
 class Wall:
-    """Stores the messages of a model; each message consists of keyword arguments."""
+    """Stores the messages of a model; the parts of a message are keyword arguments."""
 
     def __init__(self) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -94,9 +94,9 @@ def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
 
 
 def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
-    """If the file differs from the built type, the browser shows a note.
+    """If the definition file differs from the built type, the browser shows a note.
 
-    A changed comment is not a difference.
+    If only a comment has changed, the browser shows no note.
     """
     root = package(folder, "made_pkg", Made_srv="int8 x\n---\n", Whole_msg="int8 y\n")
     build(root, folder / "python")
@@ -117,14 +117,14 @@ def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
 
 @pytest.mark.parametrize("name", ["std_srvs/Nothing", "nonsense", "a/b/c", "<script>/x"])
 def test_a_type_that_is_not_there(name: str) -> None:
-    """For an unknown name, the page shows similar names or other advice."""
+    """For an unknown name, the page shows similar names or gives other advice."""
     told = described(name, "srv")
     assert name in told["problem"]
     assert (told["parts"], told["md5"]) == ([], "")
 
 
 def test_packages_are_those_with_types() -> None:
-    """Each package lists its service types and message types in alphabetical order."""
+    """For each package, the browser lists the service types and message types in alphabetical order."""
     found = packages((("b_pkg/One", "b_pkg/Two"), ("a_pkg/Three", "b_pkg/One")))
     assert found == [
         {"name": "a_pkg", "srv": [], "msg": ["Three"]},
@@ -133,7 +133,7 @@ def test_packages_are_those_with_types() -> None:
 
 
 def test_everything_on_the_path_can_be_opened() -> None:
-    """Every type on this machine can be opened."""
+    """The browser can open every type on this machine."""
     services, messages = catalogue()
     assert {"std_srvs/SetBool", "course_pkg/geometry"} <= set(services)
     assert "std_msgs/String" in messages
@@ -174,7 +174,7 @@ def test_a_name_of_both_halves_is_the_service() -> None:
 
 
 def test_who_offers_a_type_now() -> None:
-    """The browser lists the services with a service type, and the topics with a message type."""
+    """For a type, the browser lists the services or topics that use this type."""
     seen = Snapshot(
         "http://localhost:11311",
         (NodeSeen("/a", "x", "answered"),),
@@ -214,7 +214,7 @@ def test_it_follows_the_graph_and_the_files(browser: TypeBrowser, folder: Path) 
 
 
 def test_the_repr_is_stable(browser: TypeBrowser) -> None:
-    """The repr is the same before and after clicks."""
+    """The repr of the browser is the same before and after clicks."""
     browser._dispatch(browser, {"kind": "open", "name": "std_srvs/Empty", "half": "srv"}, [])
     assert browser.described["name"] == "std_srvs/Empty"
     assert (repr(browser), repr(TypeBrowser())) == ("TypeBrowser('course_pkg/geometry')", "TypeBrowser()")

@@ -108,22 +108,22 @@ def gapless(pieces: list[PieceState], size: int) -> bool:
 
 
 def connection(*said: tuple[bool, bytes], closed_by: str = "client") -> RelayedConnection:
-    """Return a connection with these blocks of bytes.
+    """Return a recorded connection with the given blocks of bytes.
 
-    The Boolean of each block says whether the client sent the block.
+    The Boolean of each block says whether the client has sent this block.
     """
     chunks = [Chunk(10 + number / 1000, *each) for number, each in enumerate(said)]
     return RelayedConnection(10.0, chunks, closed_by)
 
 
 def titles(*conversations: RelayedConnection, kind: ServiceType | None = GEOMETRY, **more: int) -> list[str]:
-    """Return the titles of the steps of these connections."""
+    """Return the titles of the steps that the wire view shows for the given connections."""
     wire = Wire("/x", uri="rosrpc://localhost:1", connections=conversations, kind=kind, **more)
     return [step["title"] for step in state(wire, unknown)["steps"]]
 
 
 def unknown(name: str) -> ServiceType:
-    """Raise the error for an unknown type."""
+    """Raise UnknownType for the type `name`."""
     raise UnknownType(name, f"there is no {name}")
 
 
@@ -165,7 +165,7 @@ def test_bytes_that_were_cut_off_are_still_shown(cut: int) -> None:
 
 @pytest.mark.parametrize("seed", range(20))
 def test_any_bytes_are_shown(seed: int) -> None:
-    """Random bytes cause no error."""
+    """The wire view can show random bytes without an error."""
     data = random.Random(seed).randbytes(300)  # noqa: S311 -- no secrets
     kind = compile_message("x/Everything", EVERYTHING)
     for pieces in (header_pieces(data), request_pieces(data, kind), reply_pieces(data, kind)):

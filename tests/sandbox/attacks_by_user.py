@@ -1,6 +1,6 @@
 """Runs attacks in the sandbox that runs submissions as other users; prints the results as JSON.
 
-The arguments are a folder that no student may read, and files that no student may change.
+The arguments of the program are a folder that no student may read, and files that no student may change.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Runs a command in a copy of the course, as on an autograder without namespaces.
 
-At the path of the checkout, the command sees the copy of the course; other processes see the checkout. If the
-command starts bubblewrap, bubblewrap fails. All users can read the course's environment.
+The command sees the copy at the path of the checkout; other processes still see the checkout. If the command
+starts bubblewrap, bubblewrap fails. All users can read the course's environment.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import pytest
 from course_pkg.handout.autograder.bundle import Options, write_autograder
 from course_pkg.setup import Places
 
-# The arguments are the copy ($0), the checkout ($1), the cache ($2) and the folder above the cache ($3).
+# The arguments of the script are the copy ($0), the checkout ($1), the cache ($2) and its parent ($3).
 MOUNTS = """
 set -e
 mount --make-rprivate /
@@ -48,7 +48,7 @@ def unpacked_autograder(folder: Path, **options: Path | float | tuple[str, ...] 
 def run_installed(
     source: Path, command: Sequence[str], *, timeout: float
 ) -> subprocess.CompletedProcess[str]:
-    """Run `command` in a copy of the course. Only root can read the checks and the solutions in the copy."""
+    """Run `command` in a copy of the course. In the copy, only root can read the checks and the solutions."""
     if os.geteuid() != 0 or not shutil.which("bwrap"):
         pytest.skip("only root can run code as other users")
     places = Places.of()

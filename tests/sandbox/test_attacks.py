@@ -1,4 +1,4 @@
-"""An attack in a cell earns no points and does not affect the next submission."""
+"""An attack in a cell earns no points, and does not change the result of the next submission."""
 
 from __future__ import annotations
 
@@ -47,13 +47,16 @@ def worker() -> Iterator[SandboxWorker]:
 
 @pytest.fixture(scope="module")
 def batch(worker: SandboxWorker, request: pytest.FixtureRequest) -> Iterator[str]:
-    """Yield the attacks of one kind. After the last attack, assert that a right answer still passes."""
+    """Yield the name of one kind of attacks.
+
+    After the tests of these attacks, assert that a right answer still passes.
+    """
     yield request.param
     assert points(worker.run(job(RIGHT))) == 2, f"the attacks of the kind {request.param!r} left something"
 
 
 def job(source: str) -> PartJob:
-    """Return the job for a cell of exercise 05.1."""
+    """Return a job that checks `source` as the answer to exercise 05.1."""
     return PartJob(CHECK, BEFORE, (source,), AFTER, 1, find(CHECK).deadline)
 
 
@@ -80,7 +83,7 @@ def attack_right(worker: SandboxWorker, attack: str) -> None:
 
 
 def attack_endlessly(worker: SandboxWorker, attack: str) -> None:
-    """Run an endless answer, and assert that the answer is killed in time and earns no points."""
+    """Run an endless answer; assert that the worker kills it in time, and that it earns no points."""
     answer = job(textwrap.dedent(attack) + WRONG)
     limited = replace(answer, deadline=2.0, setup_timeout=3.0, answer_timeout=2.0)
     began = time.monotonic()

@@ -1,4 +1,4 @@
-"""An attack in the build of a package earns no points and does not affect the next submission."""
+"""An attack in the build of a package earns no points, and does not change the next result."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def worker() -> Iterator[SandboxWorker]:
 
 
 def examined(worker: SandboxWorker, changes: dict[str, str], check: str = CHECK) -> PartResult:
-    """Apply `changes` to the solution's package, run a check of the package, and return the result."""
+    """Change the files of the solution's package, run a check of this package, and return the result."""
     files = work_files(my_geometry(changes))
     return worker.run(PartJob(check, BEFORE, (), AFTER, 1, find(check).deadline, files=files))
 
@@ -53,14 +53,14 @@ def points(result: PartResult) -> int:
 
 
 def attacked(attack: str) -> str:
-    """Insert an attack into the solution's CMakeLists.txt, and return the changed text."""
+    """Return the solution's CMakeLists.txt with the lines of an attack."""
     text = my_geometry()[LISTS].decode()
     end = text.index("\n", text.index("catkin_package(")) + 1
     return text[:end] + textwrap.dedent(attack) + text[end:]
 
 
 def attack_wrong(worker: SandboxWorker, attack: str) -> PartResult:
-    """Check a package with an attack and a wrong server.
+    """Check a package that contains an attack and a wrong server.
 
     Assert that the package earns no points.
     """

@@ -60,8 +60,8 @@ CALLS = {  # A refused call returns -1, and any other call returns 0 or a positi
     "reboot": "libc.reboot(0x89ABCDEF)",
     "the clock": "libc.settimeofday(b'\\0' * 16, None)",
 }
-# Ten child processes run until stdin is closed. `before` is code that runs before the fork, and `after` is
-# code that runs in each child process.
+# The program starts ten child processes, and waits until stdin is closed. `before` is code that runs before
+# the fork, and `after` is code that runs in each child process.
 FORKED = """
 import os, sys
 {before}
@@ -83,7 +83,7 @@ def worker() -> Iterator[SandboxWorker]:
 
 
 def told(worker: SandboxWorker, source: str) -> str:
-    """Run a cell as a submission, and return the error message."""
+    """Run `source` as the answer of a submission, and return the error message of the cell."""
     job = PartJob("05.1", "", (textwrap.dedent(source),), "", 1, 1.0, 5.0, 10.0)
     said = [words["error"] for words in worker.run(job).messages if words["cell"].startswith("answer")]
     assert said, "the cell raised no error"
@@ -169,7 +169,7 @@ raise RuntimeError([each.seed for each in gc.get_objects() if isinstance(each, P
 
 
 def test_only_the_parts_own_folders_are_writable(worker: SandboxWorker) -> None:
-    """A submission can write files only in its own folders."""
+    """A submission cannot write files to the folders of the system or of the course."""
     words = told(
         worker,
         f"""
@@ -218,9 +218,9 @@ def one_call(context: CheckContext) -> None:
 
 
 def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path: Path) -> None:
-    """If an answer uses too much memory during its check, the result contains an error about the memory.
+    """If an answer uses too much memory during its check, the error in the result is about the memory.
 
-    The result does not contain an error about a lost master.
+    The error is not about a lost master.
     """
     source = """
         import os, time
@@ -241,7 +241,7 @@ def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path:
 
 
 def test_the_memory_that_forked_processes_share_counts_once() -> None:
-    """Ten processes that share 40 MiB use 40 MiB; ten processes with 40 MiB each use 400 MiB."""
+    """Memory that processes share counts once, and memory that is not shared counts for each process."""
     shared = "kept = bytearray(b'x') * (40 << 20)"
     for before, after, more in ((shared, "pass", False), ("pass", shared, True)):
         command = [sys.executable, "-c", FORKED.format(before=before, after=after)]
@@ -288,7 +288,7 @@ def test_it_has_no_privileges_and_sees_only_its_own_processes(worker: SandboxWor
 
 
 def test_an_answer_can_start_many_threads(worker: SandboxWorker) -> None:
-    """An answer can start 50 waiting threads."""
+    """An answer can start 50 threads that only wait."""
     words = told(
         worker,
         """
@@ -330,7 +330,7 @@ def test_the_previous_answer_is_not_in_memory(worker: SandboxWorker) -> None:
 
 
 def test_nothing_of_the_previous_part_remains(worker: SandboxWorker) -> None:
-    """The next part finds no files, processes or variables that the previous part created."""
+    """The files, processes and variables that one part creates do not exist in the next part."""
     leave = """
     import os
     open("/student/note", "w").close(); open("/tmp/note", "w").close(); open("/dev/shm/note", "w").close()
@@ -367,7 +367,7 @@ CommandFolders.run = lambda *_, **__: {"status": 0, "out": "", "err": "", "took"
 
 
 def test_without_bubblewrap_grading_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without bubblewrap, require_sandbox() raises an error with advice."""
+    """Without bubblewrap, require_sandbox() raises an error that contains advice."""
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(
         bubblewrap.SandboxUnavailable, match=r"apt-get install bubblewrap.*--unsafe-no-sandbox"

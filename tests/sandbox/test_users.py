@@ -1,4 +1,4 @@
-"""Tests of attacks in the sandbox that runs submissions as other users, for machines without namespaces."""
+"""Tests of the sandbox for machines without namespaces, which runs each submission as another user."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.sandbox.other_users import run_installed, unpacked_autograder
 
 @pytest.mark.timeout(300)
 def test_attacks_by_another_user_reach_nothing(tmp_path: Path) -> None:
-    """No attack reads a solution, changes a file, earns points, or leaves a running process."""
+    """An attack cannot read a solution, change a file, earn points, or leave a running process."""
     source = unpacked_autograder(tmp_path, chapters=("05",))
     source.parent.chmod(0o700)
     checkout = Places.of().checkout
@@ -28,7 +28,7 @@ def test_attacks_by_another_user_reach_nothing(tmp_path: Path) -> None:
     found = json.loads(ran.stdout.splitlines()[-1])
     assert not found["refusal"]
     assert found["uid"] >= 60000
-    # The first probe must succeed, because its success shows that the probes were run.
+    # The first probe must succeed: this shows that the probes were really run.
     assert found["done"] == ["os.getuid() == UID"]
     assert not any(found["points"].values()), found["points"]
     assert not any(found["left"].values()), found["left"]

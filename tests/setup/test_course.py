@@ -41,14 +41,14 @@ def course(*words: str, cwd: Path = ROOT, **variables: str) -> subprocess.Comple
 
 @pytest.fixture
 def nowhere(tmp_path: Path) -> dict[str, str]:
-    """Return environment variables with a cache folder that cannot be created."""
+    """Return an environment variable that selects a cache folder which cannot be created."""
     (tmp_path / "file").write_text("")
     return {"XDG_CACHE_HOME": str(tmp_path / "file")}
 
 
 @pytest.mark.parametrize("name", SUBCOMMANDS)
 def test_help_comes_before_anything_is_installed(name: str, nowhere: dict[str, str]) -> None:
-    """`course COMMAND --help` works without the set-up."""
+    """`course COMMAND --help` works before the set-up has run."""
     answer = course(name, "--help", **nowhere)
     assert answer.returncode == 0, answer.stderr
     assert answer.stdout.startswith(f"usage: course {name}")
@@ -96,7 +96,7 @@ def test_another_python_first_on_path_does_not_matter(tmp_path: Path) -> None:
 
 
 def test_it_runs_from_anywhere_and_through_a_link(tmp_path: Path) -> None:
-    """A command runs in the current folder, and also works through a link to `course`."""
+    """A command runs in the current folder; a link to the script `course` also works."""
     assert course("run", "pwd", cwd=tmp_path).stdout == f"{tmp_path}\n"
     link = tmp_path / "my course"
     link.symlink_to(ROOT / "course")

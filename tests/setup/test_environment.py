@@ -22,7 +22,7 @@ def test_the_courses_python_comes_first_on_path() -> None:
 
 
 def test_the_users_python_variables_are_removed() -> None:
-    """PYTHONPATH is replaced, and PYTHONHOME and PYTHONSTARTUP are removed."""
+    """In the course's environment, PYTHONPATH has a new value; PYTHONHOME and PYTHONSTARTUP are removed."""
     user = {"PYTHONPATH": "/x", "PYTHONHOME": "/y", "PYTHONSTARTUP": "/z", "EDITOR": "vi"}
     fresh = environment.merged(PLACES, user)
     assert "/x" not in fresh["PYTHONPATH"].split(":")
@@ -48,13 +48,13 @@ def test_the_users_preloaded_libraries_are_kept() -> None:
 
 
 def test_applying_the_environment_twice_changes_nothing() -> None:
-    """Inside `course run bash`, `course run` uses the same environment."""
+    """If the environment of the course is already set, merged() does not change it."""
     once = environment.merged(PLACES, {"PATH": "/a:/usr/bin"})
     assert environment.merged(PLACES, once) == once
 
 
 def test_an_editor_with_only_the_interpreter_can_import_everything() -> None:
-    """The course's Python can import the package, rospy and the generated types without special variables."""
+    """Without ROS's environment variables, the course's Python can import course_pkg, rospy and types."""
     program = (
         "import os, course_pkg.srv, rospy, std_srvs.srv, anywidget\n"
         "from course_pkg.setup import environment\n"

@@ -19,7 +19,7 @@ OLDEST = "< '3.11'"  # The marker of a library whose newer versions do not suppo
 
 
 def pinned(extra: str) -> set[tuple[str, str]]:
-    """Return the name and version of each library in a lock file."""
+    """Return the name and the version of each library in the lock file for `extra`."""
     return {(name, version) for name, version, _ in PIN.findall(lock_file(extra).read_text())}
 
 
@@ -73,7 +73,7 @@ def test_conda_gets_the_same_libraries() -> None:
 
 @pytest.mark.parametrize("name", LEFT_OUT)
 def test_excluded_libraries_are_in_no_lock(name: str) -> None:
-    """No lock file pins an excluded library, but a comment in each lock file names it."""
+    """No lock file pins an excluded library, but a comment in each lock file names the library."""
     for extra in ("course", "test"):
         assert name not in {pin for pin, _ in pinned(extra)}
         assert name in lock_file(extra).read_text().split("anyio==")[0]

@@ -35,7 +35,7 @@ def test_each_distribution_is_known_by_its_codename(name: str, tmp_path: Path) -
 
 @pytest.mark.parametrize("name", RELEASES)
 def test_each_distribution_has_the_tools_of_chapters_13_and_16(name: str, tmp_path: Path) -> None:
-    """Each distribution's list contains a compiler, roscpp and actionlib."""
+    """The package list of each distribution contains a compiler, roscpp and actionlib."""
     platform = read_platform(tmp_path, release(tmp_path, RELEASES[name]))
     assert {"g++", "make", "libroscpp-dev"} <= set(platform.course)
     assert {"libactionlib-msgs-dev", "ros-actionlib-msgs", "python3-actionlib"} <= set(platform.course)
@@ -48,13 +48,13 @@ def test_a_derivative_uses_the_packages_of_its_base(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", ['PRETTY_NAME="Ubuntu 24.04"\nVERSION_CODENAME=noble\n', "", "nonsense"])
 def test_on_other_systems_the_message_recommends_conda(text: str, tmp_path: Path) -> None:
-    """On other systems, the error message contains the command for conda."""
+    """For an unknown Linux distribution, the error message contains the command for conda."""
     with pytest.raises(SetupError, match=r"conda env create -f .*environment.yml"):
         read_platform(tmp_path, release(tmp_path, text))
 
 
 def test_no_package_is_named_twice() -> None:
-    """Each list is sorted and contains no package twice."""
+    """The package list of each distribution is sorted, and contains no package twice."""
     data = json.loads(DATA.read_text())
     assert data["course"] == sorted(set(data["course"]))
     for entry in data["distributions"].values():

@@ -33,7 +33,7 @@ def test_an_empty_cache_needs_libraries_and_workspace(tmp_path: Path) -> None:
 
 
 def test_a_tool_that_fails_is_shown_by_its_last_lines_and_its_log(journal: Journal) -> None:
-    """The error message contains the exit status, the last lines of output, and the path of the log."""
+    """If a tool fails, the error message contains the exit status, the last output, and the log's path."""
     with pytest.raises(SetupError, match=r"status 3:\n  first\n  last\nThe whole output: .*setup-.*log"):
         journal.run(["sh", "-c", "echo first; echo last; exit 3"])
 
@@ -47,7 +47,7 @@ def test_a_full_disk_is_reported(journal: Journal) -> None:
 def test_a_full_disk_is_reported_without_a_message_from_the_tool(
     journal: Journal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If the disk is full and a tool fails without a message, the error message is about the full disk."""
+    """If a tool fails without a message while the disk is full, the error message is about the full disk."""
     monkeypatch.setattr("os.statvfs", lambda _: SimpleNamespace(f_bavail=3, f_frsize=4096))
     with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete files that you do not need"):
         journal.run(["false"])
@@ -64,7 +64,7 @@ def test_a_full_disk_is_reported_without_a_message_from_the_tool(
 def test_the_set_up_waits_for_another_package_manager(
     words: str, journal: Journal, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """While another program holds the lock, the set-up repeats the command and prints a message."""
+    """While another program holds the lock of apt, the set-up repeats the command and prints a message."""
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     said: list[str] = []
     held = f"[ $(wc -l < {tmp_path}/tries) -gt 2 ] || {{ echo '{words}'; exit 100; }}"
@@ -88,7 +88,7 @@ def test_missing_packages_are_listed() -> None:
 
 
 def test_without_root_and_sudo_the_message_contains_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A user without sudo gets an error message with the whole command."""
+    """A user without sudo gets an error message that contains the whole installation command."""
     monkeypatch.setattr("os.geteuid", lambda: 1000)
     monkeypatch.setattr("shutil.which", lambda _: None)
     with pytest.raises(SetupError, match=r"apt-get install --no-install-recommends rosbash catkin"):
@@ -96,7 +96,7 @@ def test_without_root_and_sudo_the_message_contains_the_command(monkeypatch: pyt
 
 
 def test_progress_in_a_pipe_prints_start_and_result() -> None:
-    """In a pipe, each step prints a line at its start and a line at its end."""
+    """If the output is a pipe, each step prints a line at its start and a line at its end."""
     stream = io.StringIO()
     progress = Progress(stream)
     with progress.painting(), progress.step("catkin workspace"):
@@ -114,7 +114,7 @@ def test_progress_in_a_pipe_prints_start_and_result() -> None:
 
 
 def test_progress_counts_and_estimates_the_rest(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In a pipe, the progress prints a line every 10 s."""
+    """If the output is a pipe, the progress of the work is printed every 10 s."""
     now = 0.0
     monkeypatch.setattr("time.monotonic", lambda: now)
     stream = io.StringIO()

@@ -1,4 +1,4 @@
-"""Tests of stamps, digests and the lock."""
+"""Tests of the set-up's stamps (files that mark finished steps), digests and lock."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tests.support import eventually
 
 
 def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
-    """A step is done after write() and until clear()."""
+    """After write(), the step counts as done until clear() is called."""
     stamps = Stamps(tmp_path / "done")
     assert stamps.read("step") is None
     stamps.write("step", "key")

@@ -1,4 +1,4 @@
-"""Tests of the results in the outbox, the requests of the sender, and the notice in the notebook."""
+"""Tests of the outbox for results, the sender, and the notice in the notebook."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ REPORT = {
 
 @pytest.fixture
 def outbox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Outbox:
-    """Return an empty outbox, which stores results until they are sent."""
+    """Return an empty outbox, which stores results until the sender has sent them."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path / "state"))
     return Outbox()
 
@@ -32,7 +32,7 @@ def outbox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Outbox:
 def test_results_arrive_and_leave_the_outbox(
     outbox: Outbox, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The sender sends the hint, but not the student's values; the notebook shows the notice only once."""
+    """After send(), the outbox is empty, and the service has the hint, but not the student's values."""
     assert outbox.put(REPORT) == ""
     (stored,) = outbox.folder.glob("*.json")
     assert "my secret" not in stored.read_text()
@@ -62,7 +62,7 @@ def test_results_stay_if_they_cannot_be_sent(outbox: Outbox, tmp_path: Path) -> 
 
 
 def test_a_full_disk_is_one_message(outbox: Outbox) -> None:
-    """If the disk is full, the check's report says that the result is not shared."""
+    """If the disk is full, the report of the check says that the result is not shared."""
     outbox.folder.parent.mkdir(parents=True)
     outbox.folder.write_text("This file is in the way.")
     assert "This result is not shared with your teacher" in outbox.put(REPORT)

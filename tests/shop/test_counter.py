@@ -29,7 +29,7 @@ def test_numbers_follow_the_order_of_coming() -> None:
 
 
 def test_a_second_call_removes_future_customers() -> None:
-    """A second call removes planned customers who have not come yet, but not the customers at the counter."""
+    """A second let_in() removes customers who have not come yet, but no customers at the counter."""
     counter = Counter()
     counter.let_in(0.0, [0.0, 5.0], stay=10.0)
     visits = counter.let_in(1.0, [1.0], stay=1.0)
@@ -38,7 +38,7 @@ def test_a_second_call_removes_future_customers() -> None:
 
 
 def test_an_empty_list_of_customers_is_accepted() -> None:
-    """An empty list removes all future customers."""
+    """let_in() with an empty list removes all customers who have not come yet."""
     counter = Counter()
     counter.let_in(0.0, [1.0], stay=1.0)
     assert counter.let_in(0.5, [], stay=0.0) == []
@@ -57,7 +57,7 @@ def test_the_next_change_is_the_next_arrival_or_departure() -> None:
 
 @pytest.mark.parametrize("wrong", [-0.1, math.nan, math.inf, 1e9])
 def test_an_impossible_time_is_refused(wrong: float) -> None:
-    """The error message contains the field's name, and the planned visits do not change."""
+    """For an impossible time, the error message contains its field, and the planned visits do not change."""
     counter = Counter()
     counter.let_in(0.0, [1.0], stay=1.0)
     with pytest.raises(FieldError, match=r"after\[1\]"):
@@ -68,6 +68,6 @@ def test_an_impossible_time_is_refused(wrong: float) -> None:
 
 
 def test_too_many_customers_are_refused() -> None:
-    """The error message contains the number of customers and the maximum."""
+    """If there are too many customers, the error message contains their number and the maximum."""
     with pytest.raises(FieldError, match="1001 customers are too many; expected at most 1000"):
         Counter().let_in(0.0, [0.0] * 1001, stay=1.0)

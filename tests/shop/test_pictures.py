@@ -20,7 +20,7 @@ from course_pkg.shop.pictures import (
 
 
 def figures(width: int, height: int, customers: int, y: float) -> int:
-    """Return the number of coloured segments in one row of a picture."""
+    """Return the number of coloured segments in the pixel row at `y` (0 to 1) of a picture of the shop."""
     data = shop_picture(width, height, customers)
     start = 3 * width * int(y * height)
     row = [tuple(data[place : place + 3]) for place in range(start, start + 3 * width, 3)]
@@ -43,7 +43,7 @@ def test_a_picture_has_all_its_points_at_any_size(size: tuple[int, int], custome
 
 
 def test_the_same_shop_is_the_same_picture() -> None:
-    """If two calls have equal arguments, the pictures are equal."""
+    """If two calls of shop_picture() have equal arguments, the pictures are equal."""
     assert shop_picture(64, 48, 3) == shop_picture(64, 48, 3)
     assert shop_picture(64, 48, 3) != shop_picture(64, 48, 2)
 

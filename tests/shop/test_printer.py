@@ -1,4 +1,4 @@
-"""Tests of the printer."""
+"""Tests of the printer of the shop."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.shop import Printer
 
 
 def test_a_printer_without_paper_prints_nothing() -> None:
-    """Without paper, `print` raises PrinterFailed. With new paper, `print` works again."""
+    """Without paper, `print` raises PrinterFailed. When there is paper again, `print` works again."""
     printer = Printer(paper=1)
     printer.print("milk 120")
     with pytest.raises(PrinterFailed, match="out of paper"):
@@ -23,7 +23,7 @@ def test_a_printer_without_paper_prints_nothing() -> None:
 
 
 def test_a_printer_jams_when_two_lines_come_at_once() -> None:
-    """If several threads print at once, `lines` contains only the lines of the successful calls."""
+    """If several threads print at the same time, `lines` contains only the lines of successful calls."""
     printer = Printer()
     with ThreadPoolExecutor(8) as pool:
         futures = [pool.submit(printer.print, str(number)) for number in range(8)]

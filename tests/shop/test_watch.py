@@ -18,7 +18,7 @@ FOR_EVER = 60.0  # s; longer than any test
 
 
 def test_a_new_customer_is_returned_once() -> None:
-    """The same customer is not returned twice."""
+    """If a customer is seen twice, the second see() does not return this customer."""
     ticks = count(1)
     watch = Watch(lambda: next(ticks))
     assert watch.see([]) == []
@@ -56,7 +56,7 @@ def test_a_wait_ends_at_once_if_a_customer_is_there() -> None:
 
 
 def test_all_waiting_threads_are_notified() -> None:
-    """Each thread waits for a customer with a number above `after`."""
+    """Each waiting thread continues when a customer with a number above its `after` comes."""
     watch = Watch()
     watch.see([1])
     with ThreadPoolExecutor(4) as pool:
@@ -107,7 +107,7 @@ def eye() -> Eye:
 
 
 def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
-    """After a malformed picture, the Eye uses the last valid picture."""
+    """If the newest picture is malformed, the Eye uses the last valid picture."""
     seen = [eye.look()]
     for frame in ("a customer", "malformed", "no customer", "malformed"):
         eye.hear(frame)
@@ -116,7 +116,7 @@ def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
 
 
 def test_an_old_frame_is_not_used(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If the newest valid picture is older than FRAME_TIMEOUT, the result is None."""
+    """If the newest valid picture is older than FRAME_TIMEOUT, look() returns None."""
     eye.hear("a customer")
     monkeypatch.setattr(module, "FRAME_TIMEOUT", -1.0)
     eye.hear("malformed")
@@ -130,7 +130,7 @@ def test_a_customer_is_found_without_waiting(eye: Eye) -> None:
 
 
 def test_a_wait_ends_with_the_customer_who_comes(eye: Eye) -> None:
-    """The first picture with a customer ends the wait of all threads."""
+    """The first picture with a customer ends the waiting of all threads."""
     eye.hear("no customer")
     with ThreadPoolExecutor(4) as pool:
         waits = [pool.submit(await_customer, eye, 30.0) for _ in range(4)]
@@ -140,7 +140,7 @@ def test_a_wait_ends_with_the_customer_who_comes(eye: Eye) -> None:
 
 
 def test_a_wait_without_a_customer_is_bounded(eye: Eye) -> None:
-    """Without a customer, the wait ends after its time limit."""
+    """Without a customer, `await_customer` returns after its time limit."""
     over = threading.Event()
 
     def stream() -> None:

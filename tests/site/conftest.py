@@ -43,7 +43,7 @@ PANELS = [
 
 @pytest.fixture(scope="session")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the site of the real course with the stored outputs, and without panels."""
+    """Build the site of the whole course from the outputs that the notebooks contain, without panels."""
     folder = tmp_path_factory.mktemp("course")
     write_site(Settings(folder / "site", execute=False, book=True), runs=runs(folder / "cache"))
     return folder / "site"
@@ -51,7 +51,7 @@ def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Run a chapter with a panel of every kind, and build a site with this chapter."""
+    """Run a chapter that contains every kind of panel, and build a site with this chapter."""
     folder = tmp_path_factory.mktemp("panels")
     cells = [code(source, id=f"c{number}") for number, source in enumerate(PANELS)]
     cells[PANELS.index("1 / 0")]["metadata"]["tags"] = ["raises-exception"]
@@ -65,7 +65,7 @@ def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
-    """Serve both sites on 127.0.0.1, and return their addresses."""
+    """Serve the sites of `course` and `panels` on 127.0.0.1, and return their addresses."""
     servers = {}
     for site in (course, panels):
         handler = partial(_Quiet, directory=str(site))

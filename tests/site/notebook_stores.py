@@ -17,7 +17,7 @@ FIRST = "# Try a panel\n\nA lead.\n\n**You will** see one.\n\n**You need** nothi
 
 
 def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
-    """Write each chapter as a solution and as a notebook with the same cells; return their store.
+    """Write a solution and a notebook with the same cells for each chapter; return the NotebookStore.
 
     An argument such as `_00_name` contains the cells of a chapter; the chapter's name is 00_name.
     """
@@ -40,6 +40,6 @@ def shown(*outputs: Output) -> Body:
 
 
 def result(**data: Plain) -> Output:
-    """Return a cell's result. `text_html="…"` is the data for the MIME type text/html."""
+    """Return a cell's result. The argument `text_html="…"` sets the data for the MIME type text/html."""
     kinds = {name.replace("_", "/", 1): value for name, value in data.items()}
     return {"output_type": "execute_result", "execution_count": 1, "metadata": {}, "data": kinds}

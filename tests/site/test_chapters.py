@@ -39,7 +39,7 @@ def test_the_information_of_every_chapter_is_complete(path: object) -> None:
     ("minutes", "words"), [(45, "45 minutes"), (120, "2 hours"), (75, "1 hour and 15 minutes")]
 )
 def test_times_add_up(minutes: int, words: str) -> None:
-    """A sum of one hour or more is shown in hours and minutes."""
+    """If a sum of times is one hour or more, it is shown in hours and minutes."""
     assert hours([chapter(minutes)]) == words
 
 

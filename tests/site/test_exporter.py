@@ -29,7 +29,7 @@ def test_html_is_cleaned() -> None:
 
 
 def test_a_script_among_the_outputs_is_left_out() -> None:
-    """The page does not show a JavaScript result."""
+    """The page does not contain a result of the type JavaScript."""
     assert "alert" not in shown(result(application_javascript="alert(1)")).html
 
 
@@ -55,7 +55,7 @@ def test_a_figure_is_described_by_its_own_text() -> None:
 
 
 def test_a_picture_of_a_panel_is_shown_if_there_is_no_state() -> None:
-    """A panel without a state is shown as a picture, or as text if there is no picture."""
+    """A panel without a state is shown as its picture, or as text if there is no picture."""
     drawing = '<svg width="1"><title>The ROS graph: 2 &lt; 3 nodes</title><text>/a</text></svg>'
     data = {"image/svg+xml": drawing, "text/plain": "GraphPanel()"}
     body = shown(result() | {"data": data}).html
@@ -66,7 +66,7 @@ def test_a_picture_of_a_panel_is_shown_if_there_is_no_state() -> None:
 
 
 def test_an_error_looks_different_from_other_output() -> None:
-    """A traceback and text on stderr have the class `err`."""
+    """A traceback and text on stderr have the CSS class `err`."""
     error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["\x1b[31mE\x1b[0m: v"]}
     stream = {"output_type": "stream", "name": "stderr", "text": "careful"}
     body = shown(error, stream).html

@@ -1,4 +1,4 @@
-"""Tests of figures in Markdown cells."""
+"""Tests of the figures that Markdown cells contain."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ DRAWING = (
 
 
 def page(folder: Path, *sources: str, prefix: str = "") -> Body:
-    """Return the body of a page with one Markdown cell for each source."""
+    """Return the body of a page that has one Markdown cell for each text in `sources`."""
     return Exporter().body(book(*(text(source, f"t{n}") for n, source in enumerate(sources))), prefix, folder)
 
 
@@ -62,7 +62,7 @@ def test_a_page_contains_the_data_of_a_picture(tmp_path: Path) -> None:
     ],
 )
 def test_a_figure_that_a_page_cannot_show_is_refused(tmp_path: Path, markdown: str, problem: str) -> None:
-    """The error message contains the figure and the problem."""
+    """The error message for an invalid figure contains the figure and the problem."""
     namespace = 'xmlns="http://www.w3.org/2000/svg" xmlns:l="http://www.w3.org/1999/xlink"'
     files = {
         "drawing.svg": DRAWING,
@@ -79,7 +79,7 @@ def test_a_figure_that_a_page_cannot_show_is_refused(tmp_path: Path, markdown: s
 
 
 def test_a_site_with_a_missing_figure_is_not_written(tmp_path: Path) -> None:
-    """The error message contains the folder of the notebook."""
+    """The error message for a missing figure contains the folder of the notebook."""
     books = store(tmp_path, _00_try=[text("![x](../figures/none.svg)", "t")])
     with pytest.raises(SiteError, match=r"no figure \.\./figures/none\.svg in .*solutions"):
         write_site(Settings(tmp_path / "site", execute=False), books, runs(tmp_path / "cache"))

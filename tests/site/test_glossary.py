@@ -17,7 +17,7 @@ WRITTEN: dict[str, str] = json.loads((Path(module.__file__).parent / "glossary.j
 
 
 def test_most_terms_link_to_their_explanation() -> None:
-    """At least 80 % of the terms link to the section that explains the term."""
+    """At least 80 % of the terms have a link to the section that explains the term."""
     exporter, texts = Exporter(), []
     for path in NotebookStore().solutions():
         notebook = read(path)
@@ -36,7 +36,7 @@ def test_every_entry_is_a_sentence() -> None:
 
 
 def test_no_two_entries_share_an_anchor() -> None:
-    """All entries have different anchors."""
+    """All entries of the glossary have different anchors."""
     anchors = [entry.anchor for entry in Glossary.of([]).entries]
     assert len(set(anchors)) == len(anchors)
 
@@ -60,7 +60,7 @@ def test_each_section_has_its_anchor_and_its_text() -> None:
 
 
 def test_marks_of_markdown_are_removed() -> None:
-    """The search texts contain the texts of links and table cells, but no marks of Markdown."""
+    """The search texts contain the texts of links and table cells, but no Markdown characters."""
     assert (
         plain("See [there](a.html), `code`, **bold**\n| a | b |\n|---|---|") == "See there, code , bold a b"
     )

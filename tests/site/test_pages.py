@@ -15,16 +15,16 @@ from tests.browser.pages import picture
 from tests.support import usual
 
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
-# These rules are added to axe-core's default rules.
+# RULES contains rules that are added to axe-core's default rules.
 RULES = {name: {"enabled": True} for name in ("target-size", "label-content-name-mismatch")}
 # A page is not allowed to fetch files, so axe-core cannot preload files.
 OPTIONS = {"rules": RULES, "preload": False}
-# This rule is the slowest rule of axe-core, and does not depend on the width of the window.
+# This rule is the slowest rule of axe-core; its result does not depend on the window's width.
 CONTRAST = "color-contrast"
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 PAGE = "00_panels.html"
-# Every test run checks these pages. A run checks the other pages only if the pages have changed.
+# Every test run checks the pages in ENOUGH. A test run checks the other pages only if they have changed.
 ENOUGH = ("index.html", "glossary.html", "05_write_a_server.html", PAGE)
 
 
@@ -52,7 +52,7 @@ def reader(
 
 
 def pages(site: Path) -> list[str]:
-    """Return the file names of a site's pages, except book.html, which contains all chapters."""
+    """Return the file names of a site's pages, except book.html (one page with all chapters)."""
     return sorted(path.name for path in site.glob("*.html") if path.name != "book.html")
 
 
@@ -76,7 +76,7 @@ def test_every_page_is_whole_without_a_network(
 
 
 def test_axe_finds_no_problem_on_some_pages(browser: Browser, course: Path, panels: Path) -> None:
-    """In a wide window with the light theme, axe-core finds no problem on some pages."""
+    """In a wide window with the light theme, axe-core finds no problem on the pages in ENOUGH."""
     assert problems(browser, [course, panels], WIDTHS[0], "light", ENOUGH) == {}
 
 
@@ -89,7 +89,7 @@ def test_axe_finds_no_problem(
 ) -> None:
     """axe-core finds no problem on any page, with and without the search dialog.
 
-    `tests.bench.site axe` checks every rule with every width and theme.
+    The program `tests.bench.site axe` checks every rule with every width and theme.
     """
     names = ENOUGH if (width, colours) == (390, "dark") else [*pages(course), *pages(panels)]
     assert problems(browser, [course, panels], width, colours, names) == {}
@@ -120,7 +120,7 @@ def problems(
 
 
 def options_for(width: int, colours: str) -> dict[str, Any]:
-    """Return options for axe-core that select the rules for this width and this theme."""
+    """Return axe-core's options: the rules that are checked with this window width and theme."""
     if colours == "dark":
         return {**OPTIONS, "runOnly": [CONTRAST]}
     return OPTIONS if width == WIDTHS[0] else {**OPTIONS, "rules": {**RULES, CONTRAST: {"enabled": False}}}
@@ -134,7 +134,7 @@ def violations(page: Page, options: Mapping[str, Any] = OPTIONS, part: str = "ht
 
 
 def look_for(page: Page, words: str) -> None:
-    """Open the search with its key, type `words`, and wait for results."""
+    """Open the search dialog with the key "/", type `words`, and wait for the results."""
     page.keyboard.press("/")
     page.get_by_role("searchbox").fill(words)
     expect(page.get_by_role("dialog").get_by_role("status")).to_contain_text("found")
@@ -154,7 +154,7 @@ def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
 
 
 def test_the_book_draws_its_panels_without_animation_frames(browser: Browser, panels: Path) -> None:
-    """The book draws all panels without animation frames and timers.
+    """The page book.html draws all panels without animation frames and timers.
 
     Chromium does not run animation frames while it prints.
     """
@@ -165,9 +165,9 @@ def test_the_book_draws_its_panels_without_animation_frames(browser: Browser, pa
 
 
 def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
-    """For a recorded request, the page shows the recorded response.
+    """If the reader enters a recorded request, the page shows the recorded response.
 
-    A panel without a recording says that there is no kernel.
+    A panel without a recording shows that there is no kernel.
     """
     with reader(browser) as page:
         open_page(page, panels, PAGE)
@@ -181,7 +181,7 @@ def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
 
 
 def test_the_turtles_can_be_replayed(browser: Browser, panels: Path) -> None:
-    """A slider changes the time of the recording."""
+    """With a slider, the reader selects the time in the recording of the turtles."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         turtles = page.get_by_role("region", name="Turtle panel")
@@ -192,7 +192,7 @@ def test_the_turtles_can_be_replayed(browser: Browser, panels: Path) -> None:
 
 
 def test_the_graph_can_be_replayed(browser: Browser, panels: Path) -> None:
-    """The key Home moves the slider to the beginning of the recording."""
+    """In the recording of a graph, the key Home moves the slider to the beginning."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         graph = page.get_by_role("region", name="Graph panel")
@@ -205,7 +205,7 @@ def test_the_graph_can_be_replayed(browser: Browser, panels: Path) -> None:
 
 
 def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
-    """With the keyboard only, the reader opens a section from the search."""
+    """The reader can open a section from the search dialog with the keyboard only."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         look_for(page, "idempotent")
@@ -216,7 +216,7 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
 
 
 def test_a_search_without_results_shows_a_message(browser: Browser, course: Path) -> None:
-    """The message contains the search term, and Escape closes the search dialog."""
+    """For a search without results, the message contains the search term; Escape closes the dialog."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()
@@ -229,7 +229,7 @@ def test_a_search_without_results_shows_a_message(browser: Browser, course: Path
 def test_the_next_page_keeps_the_chosen_colours(
     browser: Browser, served: dict[Path, str], course: Path
 ) -> None:
-    """A click on the button changes the theme, and the next page has the same theme."""
+    """A click on the theme button changes the theme, and the next page has the same theme."""
     with reader(browser, colours="light") as page:
         page.goto(served[course])
         button = page.locator("button.theme")
@@ -258,7 +258,7 @@ def test_the_contents_mark_the_current_section(browser: Browser, course: Path) -
 
 
 def test_code_can_be_copied(browser: Browser, course: Path) -> None:
-    """The button copies the text of the cell."""
+    """A click on a cell's copy button copies the text of the cell."""
     with reader(browser) as page:
         page.context.grant_permissions(["clipboard-read", "clipboard-write"])
         open_page(page, course, "05_write_a_server.html")
@@ -270,7 +270,7 @@ def test_code_can_be_copied(browser: Browser, course: Path) -> None:
 
 
 def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> None:
-    """Without scripts, the page shows the code and a message about the missing panels."""
+    """If scripts are disabled, the page shows the code and a message about the missing panels."""
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((panels / PAGE).as_uri())
@@ -281,7 +281,7 @@ def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> N
 
 
 def test_a_page_opens_no_connection(browser: Browser, course: Path, served: dict[Path, str]) -> None:
-    """The content security policy forbids connections, and forbids scripts without the nonce."""
+    """The content security policy of a page forbids connections, and forbids scripts without a nonce."""
     context = browser.new_context()
     page = context.new_page()
     page.goto(served[course])

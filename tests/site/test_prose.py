@@ -9,7 +9,7 @@ from course_pkg.site.markup.prose import Prose, page_of
 
 
 def prose(prefix: str = "") -> Prose:
-    """Return a renderer that does not change code."""
+    """Return a converter from Markdown to HTML that does not change code."""
     return Prose(lambda code, _language: code, prefix)
 
 
@@ -26,7 +26,7 @@ def test_a_link_cannot_run(link: str) -> None:
 
 
 def test_each_heading_has_a_different_anchor() -> None:
-    """Two equal headings have different anchors, which begin with the chapter's prefix."""
+    """Headings with the same text have different anchors, which begin with the chapter's prefix."""
     page = prose("c05-")
     page("# Ask, and wait\n\n## Again")
     page("## Again\n\n### `rosservice`?")
@@ -48,7 +48,7 @@ def test_each_heading_has_a_different_anchor() -> None:
     ],
 )
 def test_a_link_to_a_chapter_leads_to_its_page(link: str, page: str) -> None:
-    """A link to a notebook becomes a link to its page."""
+    """A link to a notebook becomes a link to the page of the chapter."""
     assert page_of(link) == page
     assert f'href="{page}"' in prose()(f"[there]({link})")
 
@@ -72,6 +72,6 @@ def test_other_dollar_signs_stay_text(text: str) -> None:
 
 
 def test_an_invalid_formula_is_refused() -> None:
-    """The error message contains the invalid formula."""
+    """The error message for an invalid formula contains the formula."""
     with pytest.raises(SiteError, match=r"The formula \$2\^2\^2\$ cannot be read"):
         prose()("so $2^2^2$")

@@ -29,7 +29,7 @@ from tests.site.notebook_stores import result
 class Noted:
     """A fake panel that stores the calls of its methods in `done`.
 
-    `record` raises the error `trouble` if it is not None.
+    `record` raises the error `trouble`, unless `trouble` is None.
     """
 
     def __init__(self, trouble: CourseError | None = None) -> None:
@@ -57,9 +57,9 @@ class Noted:
 
 @pytest.mark.parametrize("trouble", [None, NoServiceSelected("There is no server.")])
 def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) -> None:
-    """The panel receives the name of the service, and then the requests.
+    """The service is selected before its requests are recorded.
 
-    An error in the recording does not stop the notebook.
+    If the recording fails, the notebook continues.
     """
     panel = Noted(trouble)
     record_panel(panel, {"pick": "/add_two_ints", "record": [{"a": 1, "b": 2}]})
@@ -67,7 +67,7 @@ def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) 
 
 
 def test_a_panel_is_shown_for_a_while() -> None:
-    """With `watch`, the panel is shown for some time and then hidden."""
+    """If the recording plan contains `watch`, the panel is shown for some time and then hidden."""
     panel = Noted()
     record_panel(panel, {"watch": 0, "calls": [["/switch/report", "std_srvs/Trigger", {}]]})
     assert panel.done == ["shown", "hidden"]
@@ -89,7 +89,7 @@ SYSTEMS = json.loads((HERE / "systems.json").read_text("utf-8"))
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_each_plan_belongs_to_a_cell_with_a_panel(path: Path) -> None:
-    """Each recording plan belongs to a cell whose last line creates a panel of the right kind."""
+    """Each recording plan belongs to a cell whose last line creates a panel that fits the plan."""
     for folder in ("solutions", "notebooks"):
         cells = {cell["id"]: cell["source"] for cell in code_cells(read(ROOT / folder / path.name))}
         for cell, plan in plans(path.stem).items():
@@ -119,7 +119,7 @@ GRAPH = "course_pkg.panels.graph.view.GraphPanel"
 
 
 def saved(kind: str, **state: Plain) -> Notebook:
-    """Return a notebook whose only output is a widget of the class `kind` with this state."""
+    """Return a notebook whose only output is a widget of the class `kind` with the traits `state`."""
     view = result(text_plain="GraphPanel()")
     view["data"][VIEW] = {"model_id": "m"}
     notebook = book(code("GraphPanel()", outputs=[view]))

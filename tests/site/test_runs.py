@@ -17,14 +17,14 @@ COUNT = "from pathlib import Path\nruns = Path({!r})\nruns.write_text(runs.read_
 
 @pytest.fixture
 def counter(tmp_path: Path) -> Path:
-    """Return an empty file; each run of a chapter adds a letter to this file."""
+    """Return an empty file, to which each run of a chapter adds a letter."""
     path = tmp_path / "runs.txt"
     path.write_text("")
     return path
 
 
 def chapter(root: Path, counter: Path, prose: str = "Some prose.", last: str = "1 + 1") -> Path:
-    """Write a chapter that counts its runs, and return its path."""
+    """Write a chapter that adds a letter to the file `counter` in each run, and return its path."""
     store(
         root,
         _00_try=[text(prose, "prose"), code(COUNT.format(str(counter)), id="count"), code(last, id="last")],
@@ -33,7 +33,7 @@ def chapter(root: Path, counter: Path, prose: str = "Some prose.", last: str = "
 
 
 def executed(kept: Runs, path: Path) -> Notebook:
-    """Return the last run of a chapter, and run the chapter first if necessary."""
+    """Run a chapter if its last run is out of date, and return the last run."""
     assert kept.update([path]) == {}
     notebook = kept.latest(path)
     assert notebook is not None
@@ -46,7 +46,7 @@ def result(kept: Runs, path: Path) -> str:
 
 
 def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -> None:
-    """A change of prose needs no new run, but a change of code starts a new run."""
+    """If only prose changes, the chapter does not run again; if code changes, it runs again."""
     kept = runs(tmp_path / "cache")
     assert result(kept, chapter(tmp_path, counter)) == "2"
     path = chapter(tmp_path, counter, prose="Other prose.")
@@ -59,7 +59,7 @@ def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -
 
 
 def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, counter: Path) -> None:
-    """If the package has changed, latest() returns the old run until the chapter runs again."""
+    """If the package has changed, latest() returns the old run until update() runs the chapter again."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter)
     executed(kept, path)
     other = runs(tmp_path / "cache")
@@ -73,7 +73,7 @@ def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, coun
 def test_a_chapter_runs_again_after_a_change_of_a_chapter_that_it_imports(
     tmp_path: Path, counter: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If a file is added to a folder on which the chapter depends, the chapter runs again."""
+    """If a file is added to a folder on which a chapter depends, the next update runs the chapter again."""
     imported = tmp_path / "imported"
     imported.mkdir()
     monkeypatch.setattr("course_pkg.site.runs.folders_for", lambda number: [imported][: number == "00"])
@@ -85,7 +85,7 @@ def test_a_chapter_runs_again_after_a_change_of_a_chapter_that_it_imports(
 
 
 def test_a_run_that_fails_is_not_kept(tmp_path: Path, counter: Path) -> None:
-    """The error message contains the failed cell, and `latest` returns None."""
+    """The error message for a failed run contains the failed cell, and `latest` returns None."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter, last="1 / 0")
     errors = kept.update([path])
     assert "cell last stopped the run with ZeroDivisionError" in str(errors[path])

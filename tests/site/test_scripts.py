@@ -1,4 +1,4 @@
-"""Tests of the script that contains all front ends."""
+"""Tests of the JavaScript file that contains the front ends of all panels."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_the_script_has_no_import_and_no_export() -> None:
 
 
 def test_the_script_contains_each_module_once(tmp_path: Path) -> None:
-    """The script contains each module once, after the modules that it imports."""
+    """The script contains each module once, after the modules which this module imports."""
     (tmp_path / "kit.js").write_text("export function h() {}\n")
     (tmp_path / "one").mkdir()
     (tmp_path / "one" / "part.js").write_text('import { h } from "../kit.js";\nexport const part = h;\n')
@@ -43,7 +43,7 @@ def test_the_script_contains_each_module_once(tmp_path: Path) -> None:
 
 
 def test_the_shared_styles_come_first() -> None:
-    """The shared styles come before the styles of a panel, so that the panel can override them."""
+    """The shared styles are first, so that the styles of a panel can override them."""
     assert panels_sheet().startswith((PANELS / "look.css").read_text("utf-8"))
 
 
@@ -51,7 +51,7 @@ HERE = Path(__file__).parent
 
 
 def test_the_stored_bundle_matches_its_sources(tmp_path: Path) -> None:
-    """A new build gives the same bytes as the stored files."""
+    """A new build of the script has the same bytes as the stored files."""
     if not shutil.which("npm"):
         pytest.skip("this machine has no npm, so the bundle was not built and compared")
     try:
@@ -65,7 +65,7 @@ def test_the_stored_bundle_matches_its_sources(tmp_path: Path) -> None:
 
 
 def test_every_library_is_pinned_and_named() -> None:
-    """Each library has a version, a hash and a licence."""
+    """Each JavaScript library has a version, a hash and a licence."""
     package = json.loads((BUNDLE / "package.json").read_text("utf-8"))
     wanted = {**package["dependencies"], **package["devDependencies"]}
     locked = json.loads((BUNDLE / "package-lock.json").read_text("utf-8"))["packages"]

@@ -36,10 +36,10 @@ def test_every_chapter_has_a_page_and_a_notebook_to_download(course: Path) -> No
 
 
 def test_pages_are_small(course: Path, panels: Path) -> None:
-    """The shared files of all pages have at most 170 kB (compressed).
+    """The files that all pages share have at most 170 kB (compressed).
 
-    A page with all panels has at most 60 kB. If pictures are not counted, half of the chapters' pages have at
-    most 60 kB.
+    A page with all panels has at most 60 kB. Without pictures, half of the chapters' pages have at most 60
+    kB.
     """
     loaded = [path for path in (course / "assets").iterdir() if path.suffix in (".js", ".css")]
     shared = sum(len(compress(path.read_bytes())) for path in loaded if path.name != "texts.js")
@@ -50,7 +50,7 @@ def test_pages_are_small(course: Path, panels: Path) -> None:
 
 
 def test_a_chapter_that_fails_does_not_stop_the_other_chapters(tmp_path: Path) -> None:
-    """The failed chapter is reported, and its page shows the stored outputs."""
+    """A chapter that fails is reported, and its page shows the stored outputs."""
     chapters = {"_00_good": [code("1 + 1")], "_01_bad": [text("Some prose."), code("1 / 0", id="boom")]}
     troubles = write_site(Settings(tmp_path / "site"), store(tmp_path, **chapters), runs(tmp_path / "cache"))
     assert troubles == [
@@ -99,7 +99,7 @@ def test_the_same_course_makes_the_same_site(tmp_path: Path) -> None:
 
 @pytest.mark.timeout(300)
 def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
-    """The command prints the paths of the book and of the start page."""
+    """The command `course site` prints the paths of the book and of the start page."""
     command = [
         sys.executable,
         "-m",
@@ -120,7 +120,7 @@ def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
 
 
 def write(path: Path, *names: str) -> None:
-    """Write a site with files of these names."""
+    """Write a site that consists of files with the given names."""
     with Folder(path) as folder:
         for name in names:
             folder.write(name, name)
@@ -139,7 +139,7 @@ def test_old_files_of_an_earlier_site_are_removed(tmp_path: Path) -> None:
 
 
 def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
-    """A folder with other files is refused and does not change."""
+    """The builder refuses a folder that contains other files, and does not change this folder."""
     (tmp_path / "thesis.txt").write_text("mine")
     with pytest.raises(SiteError, match="contains files that do not belong to a site"):
         write(tmp_path, "a.html")
@@ -147,7 +147,7 @@ def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_file_that_a_user_added_to_a_site_stays(tmp_path: Path) -> None:
-    """A new site removes only files of an earlier site."""
+    """A new site does not remove a file that a user has added."""
     write(tmp_path / "site", "a.html")
     (tmp_path / "site" / "own.txt").write_text("mine")
     write(tmp_path / "site", "b.html")

@@ -1,4 +1,4 @@
-"""A client that makes random calls with unusual values and incomplete requests."""
+"""A client that sends random calls with unusual values, and incomplete requests."""
 
 from __future__ import annotations
 
@@ -38,11 +38,14 @@ ODD_NAMES = (
     "t/",
     "con",
 )
-MOST = 12  # If there are more turtles than this number, the fuzzer resets the simulator.
+MOST = 12  # If there are more turtles than MOST, the fuzzer resets the simulator.
 
 
 class Fuzzer:
-    """Chooses and executes random actions. `refused` counts the refused calls."""
+    """Chooses random actions on the turtle simulator, and executes them.
+
+    `refused` is the number of calls that the simulator has refused.
+    """
 
     def __init__(self, node: Node, seed: int) -> None:
         self._node = node
@@ -64,7 +67,7 @@ class Fuzzer:
         self._draw.choice(deeds)()
 
     def number(self) -> float:
-        """Return a random number; one number in three is unusual, for example NaN."""
+        """Return a random number; on average, one number in three is unusual, such as NaN."""
         return self._draw.choice(ODD_NUMBERS) if self._draw.random() < 1 / 3 else self._draw.uniform(-20, 20)
 
     def _turtle(self) -> str:
@@ -136,7 +139,7 @@ class Fuzzer:
 
 
 def sane(node: Node) -> None:
-    """Assert that turtle1 is in the middle after a reset, and that a teleport moves turtle1."""
+    """Assert that turtle1 is in the middle after a reset, and that turtle1 can be teleported."""
     node.call("/reset", Empty, timeout=10)
     with node.subscribe("/turtle1/pose", Pose) as heard:
         heard.wait(1)

@@ -43,7 +43,10 @@ def pose(name="turtle1", after=0):
 
 @pytest.fixture
 def client(kernel: Kernel, simulator: NodeProcess) -> Kernel:
-    """Return a kernel that runs a node. The simulator contains only turtle1."""
+    """Return a kernel that runs a node.
+
+    The fixture resets the simulator, so that it contains only turtle1.
+    """
     kernel.run(CLIENT + "node.call('/reset', Empty)")
     return kernel
 
@@ -84,7 +87,7 @@ def test_the_node_has_the_topics_and_services_of_turtlesim(simulator: NodeProces
 
 
 def test_parameters(simulator: NodeProcess) -> None:
-    """Three private parameters of the node contain the background colour."""
+    """Three private parameters of the simulator contain the background colour."""
     shown = [terminal("rosparam", "get", f"/turtlesim/background_{each}").strip() for each in "rgb"]
     assert shown == ["69", "86", "255"]
 
@@ -105,7 +108,7 @@ def test_an_unknown_turtle_cannot_be_killed(client: Kernel, simulator: NodeProce
 
 
 def test_an_illegal_name(client: Kernel) -> None:
-    """The error message contains the invalid character and its position."""
+    """The error message for an invalid turtle name contains the invalid character and its position."""
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'my turtle')")
     assert "Character [ ] at element [2] is not valid in Graph Resource Name [my turtle]" in said
     assert not [topic for topic in look().topics if topic.name.startswith("/my")]
@@ -178,7 +181,7 @@ def test_reset_brings_a_killed_first_turtle_back(client: Kernel) -> None:
     ],
 )
 def test_numbers_that_are_not_finite_are_refused(client: Kernel, name: str, kind: str, values: str) -> None:
-    """A call with NaN or infinity fails, and turtle1 does not move."""
+    """If a number in a call is NaN or infinity, the call fails, and turtle1 does not move."""
     said = client.run(f"result = words('{name}', {kind}, {values})")
     assert "not finite" in said
     assert client.run("result = round(pose().x, 3)") == 5.544
@@ -197,14 +200,14 @@ def test_a_velocity_that_is_not_finite_is_ignored(client: Kernel) -> None:
 
 
 def test_two_simulators_side_by_side(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """All names of a simulator in a namespace begin with the namespace."""
+    """If a simulator runs in a namespace, all its names begin with the namespace."""
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node", "__ns:=/left"]) as left:
         left.wait_for_service("/left/spawn")
         eventually(lambda: look().service("/left/turtle1/set_pen"))
 
 
 def test_an_invalid_background_colour_is_ignored(client: Kernel) -> None:
-    """If a colour parameter is not a number, /clear uses the default colour."""
+    """If a parameter of the background colour is not a number, /clear uses the default colour."""
     terminal("rosparam", "set", "/turtlesim/background_r", "blue")
     assert "ERROR" not in terminal("rosservice", "call", "/clear")
     seen = client.run(
@@ -222,7 +225,7 @@ def test_a_request_may_have_a_field_called_name(client: Kernel) -> None:
 
 
 def test_calls_of_the_simulator_are_recorded(client: Kernel) -> None:
-    """A recording contains the handler of the simulator and the waiting time of the client."""
+    """A recording contains the events of the simulator's handler and of the waiting client."""
     kinds = client.run(
         "with node.record() as recording:\n"
         "    node.call('/turtle1/teleport_absolute', TeleportAbsolute, 4, 4, 0)\n"

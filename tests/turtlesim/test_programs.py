@@ -18,7 +18,7 @@ from tests.support import eventually
 
 
 def test_a_square_closes() -> None:
-    """After a square, the turtle is less than 0.1 m from its start."""
+    """After draw_square, the turtle is less than 0.1 m from its start."""
     world = World()
     turtle = world.turtles["turtle1"]
     start, corners, now = (turtle.x, turtle.y), 0, 0.0
@@ -51,7 +51,7 @@ def test_draw_square_drives_the_turtle(simulator: NodeProcess, kernel: Kernel) -
 
 @pytest.mark.parametrize("chunks", [[b"\x1b[A\x1b[Dq"], [b"\x1b[", b"A", b"x\x1b", b"[D", b"q"]])
 def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
-    """Arrow keys are recognised even if their bytes arrive separately."""
+    """The program recognises an arrow key even if the bytes of the key arrive separately."""
     reader, writer = os.pipe()
     found = []
     keys = commands(reader)

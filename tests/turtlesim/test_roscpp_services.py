@@ -1,4 +1,4 @@
-"""Tests that services, names and publishers behave like those of a roscpp node."""
+"""Tests that the simulator's services, names and publishers behave like those of a roscpp node."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from course_pkg.turtlesim.turtle_interface import publish_without_waiting
 
 
 def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.socket, dict[str, str]]:
-    """Connect to the service with the name `at`, and send a header with `fields`.
+    """Connect to the server of the service `at`, and send a header with the fields `fields`.
 
     Return the socket and the server's header.
     """
@@ -31,7 +31,7 @@ def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.soc
 
 
 def framed(sock: socket.socket) -> bytes:
-    """Read four length bytes and then a block of this length; return all these bytes."""
+    """Read a length of four bytes, and a block with this length; return the length and the block."""
     size = exactly(sock, 4)
     return size + exactly(sock, struct.unpack("<I", size)[0])
 
@@ -56,7 +56,7 @@ def request(message: object) -> bytes:
 def test_the_header_names_the_types_of_request_and_response(
     master: PrivateMaster, simulator: NodeProcess
 ) -> None:
-    """The header has exactly the fields of a roscpp server."""
+    """The header of the server's response has exactly the fields of a roscpp server."""
     sock, header = connected(master, "/spawn", service="/spawn", md5sum=Spawn._md5sum)
     sock.close()
     assert header == {
@@ -99,7 +99,7 @@ def test_a_persistent_connection_takes_one_request_after_another(
 def test_a_wrong_header_is_answered(
     master: PrivateMaster, simulator: NodeProcess, fields: dict[str, str], words: str
 ) -> None:
-    """For a wrong header, the field `error` of the response contains roscpp's error message."""
+    """For a wrong header, the field `error` of the server's header contains roscpp's error message."""
     sock, header = connected(master, "/kill", **fields)
     sock.close()
     assert words in header["error"]

@@ -32,7 +32,7 @@ def run(world: World, ticks: int, start: float = 0.0) -> list[str]:
 
 
 def driven(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> tuple[World, Turtle]:
-    """Return a world with a turtle that has the given velocity."""
+    """Return a world, and its turtle with the given velocity."""
     world = World()
     turtle = world.turtles["turtle1"]
     turtle.velocity = Velocity(forward, sideways, turn, since=0.0)
@@ -81,7 +81,7 @@ def test_sideways() -> None:
 
 
 def test_the_wall() -> None:
-    """At the wall, the turtle stops, and each tick returns a warning."""
+    """At the wall, the turtle does not move any further, and each tick returns a warning."""
     world, turtle = driven(forward=1000.0)
     warnings = run(world, 3)
     assert turtle.x == WIDTH
@@ -94,9 +94,9 @@ def test_the_wall() -> None:
     ("angle", "read"), [(math.pi, -3.141593), (-math.pi, 3.141593), (7.0, 0.716815), (-4.0, 2.283185), (0, 0)]
 )
 def test_theta_is_normalized(angle: float, read: float) -> None:
-    """The result is an angle from -π to π.
+    """normalized() returns an angle from -π to π.
 
-    The float32 of π becomes -3.141593, and the float32 of -π becomes 3.141593.
+    The float32 nearest to π becomes -3.141593, and the float32 nearest to -π becomes 3.141593.
     """
     assert round(normalized(float32(angle)), 6) == read
 
@@ -110,7 +110,7 @@ def test_spawn_outside_is_clamped() -> None:
 
 
 def test_a_turtle_without_a_name_gets_one() -> None:
-    """A turtle without a name is called turtle2, turtle3 and so on, and no name is used twice."""
+    """If a turtle has no name, its name is turtle2, turtle3 and so on; no name is used twice."""
     world = World()
     world.spawn(1, 1, 0, "turtle3")
     assert [world.spawn(1, 1, 0).name for _ in range(2)] == ["turtle2", "turtle4"]
@@ -131,7 +131,7 @@ def test_used_and_unknown_names_are_refused() -> None:
 
 
 def test_teleport_relative_turns_first() -> None:
-    """teleport_relative first turns the turtle and then moves it."""
+    """teleport_relative() turns the turtle, and then moves the turtle forward."""
     world, turtle = driven()
     turtle.teleport_relative(world.canvas, 2.0, math.pi / 2)
     assert (turtle.x, turtle.y) == (pytest.approx(HOME), pytest.approx(HOME + 2))
@@ -171,7 +171,7 @@ def test_huge_velocities_keep_the_world_valid(command: tuple[float, float, float
 
 
 def coloured(start: Point, end: Point, width: int) -> set[tuple[int, int]]:
-    """Return the line's pixels in an area of 60 by 60 px at the top left."""
+    """Draw a line, and return its pixels in the top left area of 60 by 60 px."""
     canvas = Canvas(GROUND)
     canvas.line(start, end, LINE, width)
     return {(x, y) for x in range(60) for y in range(60) if canvas.colour_at((x, y)) == LINE}
@@ -224,7 +224,7 @@ def test_fill_colours_all_pixels() -> None:
 
 
 def test_the_widest_line_fits_into_a_tick() -> None:
-    """Drawing the widest line takes less CPU time than a tick of 16 ms."""
+    """A tick takes 16 ms, and drawing the widest line takes less CPU time than a tick."""
     canvas = Canvas(GROUND)
     took = []
     for _ in range(5):

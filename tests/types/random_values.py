@@ -1,4 +1,4 @@
-"""Random service types and random values for these types."""
+"""Random service types, and random values for them."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ FLOATS = (
 
 
 def half(chance: random.Random, fields: int | None = None) -> str:
-    """Return the definition of a random request or response."""
+    """Return the text of a random request or response definition."""
     count = chance.randrange(6) if fields is None else fields
     return "".join(f"{type_name(chance)} f{index}\n" for index in range(count))
 

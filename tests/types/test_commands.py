@@ -28,7 +28,7 @@ from tests.types.random_values import AWKWARD
 
 
 def line(text: str, **values: object) -> str:
-    """Return the shell command for a request of the given definition."""
+    """Return the shell command for a request; `text` is the definition, and `values` are the values."""
     return rosservice_line("/x", compile_service("course_pkg/Demo", f"{text}\n---\n"), values)
 
 
@@ -50,7 +50,7 @@ def line(text: str, **values: object) -> str:
     ],
 )
 def test_the_line_is_the_one_to_type(text: str, values: dict[str, object], expected: str) -> None:
-    """In the command, numbers and strings are separate arguments, and ambiguous strings are quoted."""
+    """In the shell command, each number or string is one argument, and ambiguous strings have quotes."""
     assert line(text, **values) == expected
 
 
@@ -66,13 +66,13 @@ def test_bash_passes_the_same_arguments() -> None:
 
 
 def test_values_that_do_not_fit_make_no_command() -> None:
-    """For a value that does not fit the type, there is no command."""
+    """If a value does not fit the type of its field, rosservice_line() raises a FieldError."""
     with pytest.raises(FieldError, match="length"):
         rosservice_line("/x", service_type("course_pkg/geometry"), {"length": 1e39, "width": 1, "height": 1})
 
 
 def test_python_is_written_as_a_person_would() -> None:
-    """The Python code contains the imports, the proxy, and one call with keyword arguments."""
+    """The Python code contains the imports, the proxy, and one call with the fields as keywords."""
     values = {"length": 1.2, "width": 5.2, "height": 8.9}
     assert rospy_line("/getGeometry", service_type("course_pkg/geometry"), values) == (
         "import rospy\n"
@@ -92,7 +92,7 @@ def test_python_keeps_types_of_one_name_apart() -> None:
 
 
 def test_python_of_unbuilt_parts_runs(packages: Path) -> None:
-    """For types that are not built, the generated code runs; it creates the types from their definitions."""
+    """If types are not built, the Python code creates the types from their definitions."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     value = {"crate": {"parts": [{"size": 2.0, "label": "nut"}]}}
@@ -193,7 +193,7 @@ result += rospy.ServiceProxy("/again", compiled)(d="cd").told
 def test_the_publishing_line_is_the_one_to_type(
     kind: str, values: dict[str, object], how: dict[str, Plain], expected: str
 ) -> None:
-    """The options come before the topic, and negative numbers come after --."""
+    """In `rostopic pub`, the options are before the topic, and negative numbers are after "--"."""
     assert rostopic_line("/x", message_type(f"std_msgs/{kind}"), values, **how) == expected
 
 
@@ -218,7 +218,7 @@ def test_a_publisher_is_written_as_a_person_would() -> None:
 
 
 def test_a_publisher_of_a_type_that_is_not_built_comes_from_its_text() -> None:
-    """For a type that is not built, the Python code makes the class from the text."""
+    """If a type is not built, the Python code makes the class from the definition's text."""
     kind = compile_message("demo/Spot", "geometry_msgs/Point at\nstring what\n")
     lines = publisher_lines("/x", kind, {"at": {"x": 1.0, "y": 2.0, "z": 3.0}, "what": "a"})
     names: dict[str, object] = {}

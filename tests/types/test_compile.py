@@ -1,4 +1,4 @@
-"""Tests that a type from the text of a definition is equal to the type that catkin built."""
+"""Tests that a type made from the text of a definition is equal to the type that catkin built."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def test_md5_and_text_are_those_of_the_build(name: str) -> None:
 
 
 def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
-    """For fields of every kind, the MD5 sum and the encoded bytes are the same as with genpy."""
+    """With fields of every kind, a type from text has the same MD5 sum and encoding as the built type."""
     assert packages.is_dir()
     built, again = service_type("odd_pkg/Everything"), compile_service("odd_pkg/Everything", EVERYTHING)
     assert again == built
@@ -52,14 +52,14 @@ def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
 
 
 def test_a_class_gives_the_same_type_as_its_name() -> None:
-    """service_type accepts an imported class, and a class that service_type has made."""
+    """service_type() accepts an imported class, and a class that was made from text."""
     kind = service_type(std_srvs.srv.SetBool)
     assert kind == service_type("std_srvs/SetBool") == service_type(kind)
     assert service_type(compile_service("a/B", "geometry_msgs/Point p\n---\n").cls).request.fields[0].fields
 
 
 def test_a_package_that_is_not_built_is_read_from_its_text(packages: Path) -> None:
-    """If a type is not built, the class is made from the type's text."""
+    """If a type is not built, its class is made from the text of its definition."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     assert not kind.built
@@ -70,7 +70,7 @@ def test_a_package_that_is_not_built_is_read_from_its_text(packages: Path) -> No
 def test_changed_text_of_a_nested_message_is_used(
     packages: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If the text of a nested message differs from the built type, the text is used."""
+    """If the text of a nested message differs from the built type, the fields of the text are used."""
     package(tmp_path, "odd_pkg", Part_msg=f"{PART}int8 added\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}")
     assert packages.is_dir()
@@ -81,7 +81,7 @@ def test_changed_text_of_a_nested_message_is_used(
 def test_definitions_that_genmsg_accepts_are_accepted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The course accepts all definitions that genmsg accepts."""
+    """The course accepts unusual names, comments and constants that genmsg accepts."""
     text = 'string from  # "quoted\\xzz"\nstring PATH=C:\\new\\\nstring in="\n----\nint8 x\n---\nint8 y\n'
     package(tmp_path, "lax_pkg", Lax_srv=text)
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
@@ -112,7 +112,7 @@ def test_error_in_a_nested_message_names_its_file(tmp_path: Path, monkeypatch: p
 
 
 def test_compilation_leaves_no_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After fifty compilations, no new file, sys.path entry or module exists."""
+    """Fifty compilations add no file, no entry of sys.path, and no module."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     compile_service("course_pkg/Demo", "geometry_msgs/Point p\n---\n")
     before = set(sys.modules), list(sys.path)
@@ -123,7 +123,7 @@ def test_compilation_leaves_no_files(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 
 def test_threads_may_compile_at_once() -> None:
-    """Eight threads compile at the same time, and each thread gets the right fields.
+    """If eight threads compile types at the same time, each thread gets the fields of its own type.
 
     A lock is necessary, because genpy itself is not thread-safe.
     """
@@ -145,7 +145,7 @@ def test_threads_may_compile_at_once() -> None:
 
 @pytest.mark.parametrize("given", [3, None, object(), std_srvs.srv.SetBoolRequest])
 def test_value_that_is_not_a_type_is_refused(given: object) -> None:
-    """service_type and message_type refuse numbers, other objects, and a type of the wrong kind."""
+    """service_type() refuses a value that is no service type; message_type() refuses a service type."""
     with pytest.raises(UnknownType):
         service_type(given)
     with pytest.raises(UnknownType):

@@ -9,7 +9,7 @@ from course_pkg.types import compile_message, compile_service, service_type
 
 
 def refused(text: str) -> BrokenDefinition:
-    """Return the error for the text of a .srv file."""
+    """Return the error that the parser raises for the text of a .srv file."""
     with pytest.raises(BrokenDefinition) as caught:
         compile_service("course_pkg/Broken", text)
     return caught.value
@@ -69,7 +69,7 @@ def refused(text: str) -> BrokenDefinition:
     ],
 )
 def test_mistake_has_its_place_and_remedy(text: str, line: int, column: int, remedy: str) -> None:
-    """The error message contains the line and column of the mistake, and how to correct it."""
+    """The error message says at which line and column the mistake is, and how to correct it."""
     error = refused(text)
     assert (error.line, error.column) == (line, column), error
     assert remedy in error.remedy
@@ -102,20 +102,20 @@ def test_definitions_that_ros_accepts(text: str) -> None:
 
 
 def test_a_message_has_no_halves() -> None:
-    """In a message definition, --- is refused."""
+    """In a message definition, a line --- is refused."""
     with pytest.raises(BrokenDefinition, match="a message cannot have a --- line"):
         compile_message("course_pkg/Broken", "int8 x\n---\n")
 
 
 @pytest.mark.parametrize("name", ["Demo", "a/b/c", "/Demo", "course_pkg/"])
 def test_a_type_needs_its_package(name: str) -> None:
-    """A name that is not package/Type is refused."""
+    """A type name that does not have the form package/Type is refused."""
     with pytest.raises(UnknownType, match="package/Type"):
         compile_service(name, "---\n")
 
 
 def test_comments_are_kept_with_their_fields() -> None:
-    """The comment after a field, or in the line before it, is the help text of the field."""
+    """A field's help text is the comment after the field, or the comment in the line before the field."""
     text = "# A box.\n# All of it.\n\n# in metres\nfloat32 a\nfloat32 b # in feet\nfloat32 c\n"
     request = compile_service("course_pkg/Box", f"{text}---\nbool done # or not\n").request
     assert request.help == "A box. All of it."

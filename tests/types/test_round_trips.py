@@ -53,7 +53,7 @@ def test_text_and_wire_give_every_value_back(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """From the shell command, rosservice creates the original request."""
+    """The command rosservice creates the original request from the shell command."""
     for kind, chance in drawn(seed):
         for _ in range(2):
             plain = kind.request.check(values(chance, kind.request))
@@ -64,7 +64,7 @@ def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.Mo
 
 
 def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyPatch) -> genpy.Message:
-    """Return the request that rosservice makes from a command."""
+    """Return the request that rosservice makes from a shell command."""
     given: list[list[Plain]] = []
 
     def catch(_name: str, arguments: list[Plain], **_options: object) -> None:

@@ -17,13 +17,13 @@ uint8 SLOW=1
 
 
 def described() -> tuple[MessageSchema, dict[str, FieldSchema]]:
-    """Convert a description to JSON and back; return its request, and a dict of the request's fields."""
+    """Return the JSON description of a request, and a dict of the descriptions of its fields."""
     request = json.loads(json.dumps(schema(compile_service("course_pkg/Move", TEXT))))["request"]
     return request, {field["name"]: field for field in request["fields"]}
 
 
 def test_request_and_response_are_described() -> None:
-    """A service has a name, an MD5 sum, a request and a response."""
+    """The description of a service has a name, an MD5 sum, a request and a response."""
     kind = service_type("course_pkg/geometry")
     whole = schema(kind)
     assert (whole["name"], whole["md5"]) == (kind.name, kind.md5)
@@ -31,7 +31,7 @@ def test_request_and_response_are_described() -> None:
 
 
 def test_limits_are_strings() -> None:
-    """The limits of an int64 are strings, because JavaScript would round large numbers."""
+    """In the description, the limits of an int64 are strings, because JavaScript rounds large numbers."""
     _, fields = described()
     count = fields["count"]
     assert (count["low"], count["high"]) == (str(-(2**63)), str(2**63 - 1))
@@ -39,7 +39,7 @@ def test_limits_are_strings() -> None:
 
 
 def test_nested_fields_are_described() -> None:
-    """An array has a length and an element type, and a message has fields."""
+    """The description of an array has a length and an element type, and that of a message has fields."""
     _, fields = described()
     assert fields["way"]["length"] == 2
     assert [part["name"] for part in fields["way"]["item"]["fields"]] == ["x", "y", "z"]
@@ -48,7 +48,7 @@ def test_nested_fields_are_described() -> None:
 
 
 def test_help_and_constants_are_described() -> None:
-    """The description contains the comment at the top of the definition, and the constants."""
+    """The description of a request contains the comment at the top of the definition, and the constants."""
     request, _ = described()
     assert request["help"] == "What to move."
     assert request["constants"] == [{"name": "SLOW", "type": "uint8", "value": "1"}]

@@ -1,4 +1,4 @@
-"""Tests of finding types on ROS_PACKAGE_PATH."""
+"""Tests of the search for types on ROS_PACKAGE_PATH."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tests.types.conftest import build, package
 
 
 def test_all_types_on_the_path_are_listed(packages: Path) -> None:
-    """The sorted list contains the types of all packages, or of the given package."""
+    """The lists contain the types of all packages, or of one package, in sorted order."""
     assert packages.is_dir()
     everything = list_service_types()
     assert everything == sorted(everything)
@@ -51,7 +51,7 @@ def test_a_type_that_is_new_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyP
     ],
 )
 def test_an_unknown_service_type_gets_advice(name: str, advice: str) -> None:
-    """The error message contains the name, similar names, and what to do next."""
+    """The error message contains the name, and similar names or other advice."""
     with pytest.raises(UnknownType) as caught:
         service_type(name)
     assert advice in str(caught.value)
@@ -80,7 +80,7 @@ def built_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_file_counts_and_not_the_built_type(built_package: Path) -> None:
-    """After a change of a file, type_in_file() returns the new type, which is not built yet."""
+    """If a definition file has changed, type_in_file() returns the new type, which is not built yet."""
     assert type_in_file("filed_pkg/Ask", "srv").md5 == service_type("filed_pkg/Ask").md5
     (built_package / "srv" / "Ask.srv").write_text("int16 x\n---\n")
     now = type_in_file("filed_pkg/Ask", "srv")
@@ -102,7 +102,7 @@ def test_errors_name_the_file(built_package: Path) -> None:
 
 @pytest.mark.parametrize("kind", ["srv", "msg"])
 def test_all_files_of_this_machine_are_what_was_built_from_them(kind: DefinitionKind) -> None:
-    """For every type of the distribution, the file and the class have the same MD5 sum."""
+    """For the types of std_srvs and geometry_msgs, the file and the built class have the same MD5 sum."""
     names = list_service_types("std_srvs") if kind == "srv" else list_message_types("geometry_msgs")
     built = service_type if kind == "srv" else message_type
     assert names

@@ -1,4 +1,4 @@
-"""Tests of converting strings to values and back."""
+"""Tests of the conversion between strings and values."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.types import MessageType, compile_message, message_type, service
 
 
 def parse(type_name: str, text: object) -> object:
-    """Convert the string `text` to a value of this type, and return the value."""
+    """Convert the string `text` to a value of the type `type_name`, and return the value."""
     return compile_message("course_pkg/One", f"{type_name} x\n").parse({"x": text})["x"]
 
 
@@ -68,7 +68,7 @@ def test_numbers_are_shown_as_short_as_they_were_typed(geometry: MessageType) ->
     ],
 )
 def test_notations_that_can_be_typed(type_name: str, text: object, value: object) -> None:
-    """Each notation is converted to the right value."""
+    """Each notation that a student can type is converted to the right value."""
     assert parse(type_name, text) == value
 
 
@@ -107,12 +107,12 @@ def test_notations_that_can_be_typed(type_name: str, text: object, value: object
     ],
 )
 def test_error_about_an_invalid_string(type_name: str, text: str, words: str) -> None:
-    """The error message contains the field, the mistake and the allowed values."""
+    """The error message for an invalid string contains the field, the mistake and the allowed values."""
     assert words in str(refused(type_name, text))
 
 
 def test_an_error_carries_its_parts() -> None:
-    """The error has the attributes field, value, range and hint."""
+    """The error has the attributes field, value, allowed and hint."""
     error = refused("float32", "1,5")
     assert (error.field, error.value, error.hint) == ("x", "1,5", "write 1.5")
     assert error.allowed.startswith("a float32 from")

@@ -51,13 +51,13 @@ def refusal(mixed: MessageType) -> Callable[..., FieldError]:
 
 
 def test_defaults_are_those_of_genpy(mixed: MessageType) -> None:
-    """The default values are equal to those of a new message."""
+    """The default values of a message type are equal to the values of a new genpy message."""
     assert mixed.to_message(mixed.default()) == mixed.cls()
     assert mixed.to_values(mixed.cls()) == mixed.default()
 
 
 def test_fields_have_type_kind_and_parts(mixed: MessageType) -> None:
-    """A field has the right type, kind, length, element and nested fields."""
+    """A field has the right type, kind, length, element type and nested fields."""
     fields = {field.name: field for field in mixed.fields}
     assert fields["points"].kind is Kind.ARRAY
     assert fields["points"].type == "geometry_msgs/Point[]"
@@ -83,7 +83,7 @@ def test_fields_have_type_kind_and_parts(mixed: MessageType) -> None:
 def test_integers_have_the_range_of_their_type(
     mixed: MessageType, refusal: Callable[..., FieldError], name: str, low: int, high: int
 ) -> None:
-    """The limits of an integer type are valid; a number outside these limits is not valid."""
+    """The smallest and the largest number of an integer type are valid, and numbers outside are not valid."""
     for edge in (low, high):
         assert mixed.check({**mixed.default(), name: edge})[name] == edge
     for beyond in (low - 1, high + 1):
@@ -111,7 +111,7 @@ def test_floats_take_what_fits(mixed: MessageType, value: float) -> None:
 
 
 def test_floats_refuse_what_does_not_fit(refusal: Callable[..., FieldError]) -> None:
-    """A float field refuses a number that is too large, and a bool."""
+    """A float field refuses a bool, and a number that is too large."""
     assert "3.4e38" in str(refusal(f32=1e39))
     assert "1.8e308" in str(refusal(f64=10**400))
     assert refusal(f64=True).field == "f64"
@@ -128,7 +128,7 @@ def test_times_are_unsigned_and_durations_signed(
 
 
 def test_messages_and_times_may_be_given_as_such(mixed: MessageType) -> None:
-    """A genpy message or a genpy time in a field is converted to plain values."""
+    """If a field gets a genpy message or a genpy time, the value is converted to plain values."""
     given = {"t": genpy.Time(1, 2), "points": [Point(1, 2, 3)], "data": b"\x01\x02"}
     checked = mixed.check({**mixed.default(), **given})
     assert checked["t"] == {"secs": 1, "nsecs": 2}
@@ -137,21 +137,21 @@ def test_messages_and_times_may_be_given_as_such(mixed: MessageType) -> None:
 
 
 def test_errors_name_the_path(refusal: Callable[..., FieldError]) -> None:
-    """The error for a nested value contains the element's index and the field's name."""
+    """The error for a nested value contains the index of the element and the name of the field."""
     points = [{"x": 0.0, "y": 0.0, "z": 0.0}, {"x": 0.0, "y": 0.0, "z": "high"}]
     assert refusal(points=points).field == "points[1].z"
     assert refusal(data=[0, 256]).field == "data[1]"
 
 
 def test_a_fixed_array_wants_its_length(refusal: Callable[..., FieldError]) -> None:
-    """The error message contains the given and the expected number of elements."""
+    """For an array of fixed length, the error message contains the given and the expected length."""
     error = refusal(three=[1, 2])
     assert "2 elements were given" in str(error)
     assert "exactly 3" in error.allowed
 
 
 def test_missing_and_unknown_fields_are_named(mixed: MessageType) -> None:
-    """The error message for a misspelt field contains this field and the most similar field."""
+    """The error message for a misspelt field contains its name, and the name of the most similar field."""
     values = mixed.default()
     del values["f32"]
     with pytest.raises(FieldError, match="f32: this field is missing"):
@@ -161,7 +161,7 @@ def test_missing_and_unknown_fields_are_named(mixed: MessageType) -> None:
 
 
 def test_a_string_holds_what_utf_8_holds(mixed: MessageType, refusal: Callable[..., FieldError]) -> None:
-    """A string may contain NUL, but not a single surrogate."""
+    """A string may contain the character NUL, but not half of a surrogate pair."""
     assert mixed.check({**mixed.default(), "word": "a\x00ä"})["word"] == "a\x00ä"
     assert "surrogate" in str(refusal(word="\ud800"))
 
@@ -175,7 +175,7 @@ def test_invalid_values_in_a_message_are_found(mixed: MessageType) -> None:
 
 
 def test_an_image_becomes_bytes() -> None:
-    """The value of a number array may be bytes."""
+    """In a genpy message, a list of numbers in a uint8 array becomes bytes."""
     image = message_type("std_msgs/UInt8MultiArray")
     values = {**image.default(), "data": [7] * 100_000}
     assert image.to_message(values).data == b"\x07" * 100_000

@@ -17,10 +17,10 @@ from tornado.web import Application
 
 @contextmanager
 def served(application: Callable[[int], AbstractContextManager[Application]]) -> Iterator[str]:
-    """Serve an application during the `with` block; yield its address without a slash at its end.
+    """Serve an application on a thread during the `with` block; yield the address, without a final slash.
 
-    While the thread's event loop runs, the thread calls `application` with the port. At the end of the block,
-    the thread leaves the context manager that `application` has returned.
+    The thread calls `application` with the port, and enters the context manager that `application` returns.
+    At the end of the `with` block, the thread leaves this context manager.
     """
     (listening,) = bind_sockets(0, "127.0.0.1")
     port = listening.getsockname()[1]

@@ -18,7 +18,7 @@ def test_nothing_is_missing_in_the_environment_of_the_course() -> None:
 
 
 def test_a_missing_compiler_is_named_with_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The error message contains the missing compiler, and the command that installs it."""
+    """The error message about a missing compiler contains the command that installs a compiler."""
     monkeypatch.setenv("CXX", "/nowhere/c++")
     words = missing_for_cpp()
     assert words.startswith("No C++ compiler is installed (/nowhere/c++).")
@@ -35,7 +35,7 @@ def test_missing_headers_are_named_with_what_to_type(monkeypatch: pytest.MonkeyP
 def test_each_prefix_is_searched_for_headers_and_libraries(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """The search uses the workspaces first, and then the conda environment."""
+    """The compile command searches the folders of CMAKE_PREFIX_PATH first, and then the conda environment."""
     monkeypatch.setenv("CMAKE_PREFIX_PATH", f"{tmp_path}/devel")
     monkeypatch.setenv("CONDA_PREFIX", f"{tmp_path}/conda")
     command = cpp_support.compile_command("in.cpp", "out")
@@ -49,7 +49,7 @@ def test_each_prefix_is_searched_for_headers_and_libraries(
 ROS = "#include <ros/ros.h>\n#include <std_srvs/Trigger.h>\n"
 FILE = "src/boxes/src/program.cpp"
 
-# Each mistake has a program, the expected line, and a text that the explanation must contain.
+# Each mistake has a program, the line of the mistake, and a text that the explanation must contain.
 MISTAKES = {
     "no such header": ("#include <roz/ros.h>\nint main() {}\n", 1, "the header roz/ros.h"),
     "no return": (
@@ -112,7 +112,7 @@ def test_the_first_fault_is_one_of_the_student(tmp_path: Path) -> None:
 
 @needs_compiler
 def test_a_good_program_builds_and_runs(tmp_path: Path) -> None:
-    """The check's compile command finds roscpp and the course's types."""
+    """With the compile command of the check, a program can use roscpp and the course's types."""
     source = tmp_path / "good.cpp"
     source.write_text(
         "#include <course_pkg/geometry.h>\n#include <ros/ros.h>\n"

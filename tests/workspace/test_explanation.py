@@ -1,7 +1,7 @@
 """Tests that the course explains the messages of ROS tools.
 
-Each case is a package with one mistake, which the real catkin_make builds. All cases use the same workspace
-to save time.
+Each case is a package with one mistake, which the real catkin_make builds. All cases use one workspace,
+because this saves time.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ GENERATE = "generate_messages()\n"
 PACKAGE = "catkin_package(CATKIN_DEPENDS message_runtime)\n"
 C, S, X = "CMakeLists.txt", "srv/Box.srv", "package.xml"
 
-# Each case has the files, the expected position, and a text that the explanation must contain.
+# Each case of SLIPS has the files, the expected position, and a text that the explanation must contain.
 SLIPS = {
     "message_generation missing": (
         spoilt(C, (" COMPONENTS message_generation", "")),
@@ -217,7 +217,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_mistake_in_a_package_is_explained(
     workspace: Path, files: dict[str, str], place: str, words: str
 ) -> None:
-    """The explanation contains the position, the problem and advice."""
+    """For each mistake in a package, the explanation contains the position, the problem and advice."""
     write(workspace, files)
     _, printed = build(workspace)
     fault = explain(printed)
@@ -244,7 +244,7 @@ def test_successful_build_has_no_fault(workspace: Path, files: dict[str, str]) -
 
 
 def test_another_python_is_recognised(tmp_path: Path) -> None:
-    """If a Python without ROS is first in PATH, the advice contains the option for the right Python."""
+    """If the first Python in PATH has no ROS, the advice contains the option that selects another Python."""
     subprocess.run(["python3", "-m", "venv", "--without-pip", tmp_path / "other"], check=True)
     write(tmp_path, GOOD)
     for path in (str(tmp_path / "other" / "bin"), ""):
@@ -254,7 +254,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
     assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
 
 
-# Each entry has a command that runs after the build, and a text that the explanation must contain.
+# Each entry of SAID has a command that runs after the build, and a text that the explanation must contain.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
     "another Python": ("/usr/bin/python3 -S -c 'import numpy'", True, "#!/usr/bin/env python3"),
@@ -276,7 +276,7 @@ SAID = {
 
 @pytest.mark.parametrize(("line", "sourced", "words"), usual(5, SAID))
 def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourced: bool, words: str) -> None:
-    """A wrong import, a missing shebang or a wrong command is explained."""
+    """The course explains a wrong import, a missing shebang and a wrong command."""
     scripts = {"plain": 'print("hello")\n', "shell": 'print("hello")\n'}
     scripts["windows"] = "#!/usr/bin/env python3\r\nprint(1)\r\n"
     write(workspace, {**GOOD, **{f"scripts/{name}.py": text for name, text in scripts.items()}})
@@ -318,7 +318,7 @@ def test_unknown_output_has_no_explanation(text: str) -> None:
 
 
 def test_unknown_message_is_quoted() -> None:
-    """The problem is one line with short paths, and the position is a line of the student's package."""
+    """For an unknown message, the problem is one line, and the position is in the student's package."""
     fault = explain(
         "-- Configuring\n\x1b[31mCMake Error at /usr/share/x/y.cmake:3 (message):\n  Something about\n"
         "  /home/me/ws/src/a/b.txt is\n  wrong.\nCall Stack (most recent call first):\n"
@@ -330,7 +330,7 @@ def test_unknown_message_is_quoted() -> None:
 
 
 def test_tags_have_lines() -> None:
-    """The search finds tags with attributes, but no tags in comments."""
+    """manifest_tags() finds tags with attributes, but no tags in comments."""
     text = '<?xml version="1.0"?>\n<package format="2">\n<!-- <name>old</name>\n-->\n  <name> mine </name>\n'
     assert [(tag.name, tag.line, tag.text) for tag in manifest_tags(text)] == [
         ("package", 2, ""),
@@ -365,7 +365,7 @@ def test_what_a_package_needs(text: str, build: set[str], run: set[str]) -> None
     ],
 )
 def test_a_fault_is_located(problem: str, text: str, line: int) -> None:
-    """The line of a tag is found in the text of the file."""
+    """locate() finds the line of the tag with the problem in the text of package.xml."""
     assert locate(Fault(problem, "", "my_services/package.xml"), text).line == line
 
 

@@ -63,7 +63,7 @@ def test_workspace_is_next_to_the_notebooks(monkeypatch: pytest.MonkeyPatch, tmp
 
 
 def test_what_is_built_can_be_imported_and_a_changed_type_is_reported_once(root: Path) -> None:
-    """A kernel imports a new type without a restart, and reports a changed type once."""
+    """A kernel imports a new type without a restart, and reports once that a built type has changed."""
     packages = OwnPackages(root)
     assert packages.refresh() == ""
     with pytest.raises(ModuleNotFoundError):
@@ -110,7 +110,7 @@ def test_kernel_finds_the_packages_after_join(root: Path) -> None:
 
 
 def test_the_courses_programs_are_never_the_students(root: Path) -> None:
-    """A student's program never replaces a program of the course with the same name."""
+    """If a student's package is called course_pkg, the programs of this package are never started."""
     package(root, "course_pkg", client=SERVER, mine=SERVER)
     package(root, "lab_sheet", client=SERVER)
     OwnPackages(root).refresh()
@@ -128,7 +128,7 @@ def test_the_courses_programs_are_never_the_students(root: Path) -> None:
     "text", ["", "<package><name>my_arm</name>", "<package><version>1</version></package>"]
 )
 def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str) -> None:
-    """A kernel ignores a package whose package.xml is not valid XML."""
+    """If a package.xml is not valid XML, a kernel ignores only this package."""
     package(root, "my_arm", client=SERVER)
     package(root, "my_hand", client=SERVER)
     manifest = root / "src" / "my_arm" / "package.xml"
@@ -138,7 +138,7 @@ def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str)
     message = packages.refresh()
     assert message.startswith("src/my_arm/package.xml cannot be read (")
     assert "my_hand" not in message
-    assert packages.refresh() == ""  # The problem is reported only once.
+    assert packages.refresh() == ""  # The unreadable package.xml is reported only once.
     assert terminal("rosrun", "my_hand", "client").stdout == "of the student\n"
     assert terminal("rossrv", "md5", "course_pkg/geometry").returncode == 0
     assert find_executable("my_hand", "client").is_file()
@@ -150,7 +150,7 @@ def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str)
 
 
 def test_a_removed_package_is_not_found_any_more(root: Path) -> None:
-    """A kernel does not find a package with a CATKIN_IGNORE file."""
+    """After a file CATKIN_IGNORE is added to a package, a kernel does not find the package."""
     package(root, "my_arm", client=SERVER)
     packages = OwnPackages(root)
     packages.refresh()
@@ -171,7 +171,7 @@ def test_a_link_to_a_package_is_followed_and_a_loop_is_not(root: Path, tmp_path:
 
 
 def test_rosrun_searches_nothing_of_the_checkout_but_the_package() -> None:
-    """The command rosrun searches only the course's package, not the checkout."""
+    """The folder that rosrun searches contains the course's package, and no other part of the checkout."""
     checkout = Places.of().checkout
     shown = Places.of().workspace / "src" / "course_pkg"
     assert shown.is_dir()

@@ -1,12 +1,14 @@
 """Checks answers by authors who knew only the goals of the parts.
 
-Arguments: `FOLDER [FILE …]`. Each FILE is the name of a file in FOLDER without `.py`. A file contains
-answers in percent format. A line `# --- next cell` separates cells:
+Arguments: `FOLDER [FILE …] [--alone]`. Each FILE is the name of a file in FOLDER without `.py`. A file
+contains answers in percent format. A line `# --- next cell` separates cells:
 
     # %% 05.1 right: TITLE
     # %% 05.1 wrong: TITLE | why: WHAT IS WRONG, for a person who reads the report
 
 The program prints the report of each wrong answer, and of each answer whose verdict differs from its header.
+At the end, it prints the median time of a check, and the longest refusals. With `--alone`, only one check
+runs at a time, so other checks do not increase these times.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from statistics import median
 
 from course_pkg.checking.fixtures import around, percent_cells
 from course_pkg.checking.parts import Part, every_part
@@ -29,15 +32,19 @@ WRITTEN = re.compile(
     r"# %% (?P<check>\d\d\.\d+) (?P<kind>right|wrong): (?P<title>[^|]+?)(?:\s*\| why: (?P<why>.+))?$"
 )
 
+LONGEST = 5  # The program prints this number of refusals.
+
 
 def answers_main() -> int:
     """Check the answers. Return the number of answers whose verdict differs from their header."""
-    folder, *wanted = sys.argv[1:]
+    alone = "--alone" in sys.argv
+    folder, *wanted = [each for each in sys.argv[1:] if each != "--alone"]
     paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
     written = [answer for path in paths for answer in _written(path)]
     parts = {part.check: part for part in every_part()}
     count: Counter[tuple[str, str]] = Counter()
-    with WorkerPool(2 * (os.cpu_count() or 1)) as pool:
+    times: list[tuple[float, str, str]] = []
+    with WorkerPool(1 if alone else 2 * (os.cpu_count() or 1)) as pool:
         jobs = [(answer, _job_of(answer, source, parts)) for answer, source in written]
         pool.submit(job for _, job in jobs)
         for answer, job in jobs:
@@ -47,6 +54,7 @@ def answers_main() -> int:
                 verdict, f"not judged ({outcome.ending})"
             )
             count[answer["kind"], judged] += 1
+            times.append((outcome.took, judged, f"{answer['check']} {answer['title']}"))
             print(f"{answer['check']} {answer['kind']}: {answer['title']}")
             if judged != answer["kind"]:
                 print(f"  JUDGED {judged}: {outcome.report}", *outcome.messages, sep="\n    ")
@@ -54,6 +62,9 @@ def answers_main() -> int:
                 print(f"  why: {answer['why']}\n  report: {outcome.report}", sep="\n    ")
     for (kind, judged), number in sorted(count.items()):
         print(f"{kind}, judged {judged}: {number}")
+    print(f"median time of a check, with its cells: {median(took for took, _, _ in times):.2f} s")
+    for took, _, title in sorted(each for each in times if each[1] == "wrong")[: -1 - LONGEST : -1]:
+        print(f"a long refusal: {took:.1f} s, {title}")
     return sum(number for (kind, judged), number in count.items() if kind != judged)
 
 

@@ -12,7 +12,7 @@ from tests.support import eventually
 
 
 class Messages:
-    """A client that sends cells to the kernel of a server, through the kernel's sockets."""
+    """A client that sends cells to a running kernel of `course lab` through the kernel's sockets."""
 
     def __init__(self, service: Service) -> None:
         [server] = having(b"-m\0course_pkg.lab\0", below(service.process))[1:]
@@ -28,7 +28,7 @@ class Messages:
         client.load_connection_file()
         client.start_channels()
         try:
-            # A kernel that is starting does not answer a heartbeat.
+            # A kernel does not answer a heartbeat while it starts.
             client.kernel_info(reply=True, timeout=30)
             client.wait_for_ready(timeout=30)
             client.execute(code)

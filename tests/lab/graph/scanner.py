@@ -1,11 +1,11 @@
-"""Scans this process's network for the master, node, service and socket of NAME; prints what it finds.
+"""Finds the master, node, service and socket with the name NAME in the current network; prints them.
 
 usage: python3 scanner.py NAME [SOCKET …]
 
 The program sends three requests to each listening TCP port: for a master's state, for a node's address, and
-for the service NAME. It also tests whether each abstract socket accepts connections. It also connects to each
-SOCKET, which is the path of a Unix socket. The scanner uses only the standard library, so that every user can
-run it.
+for the service NAME. The program also tests whether each abstract socket accepts connections. The program
+also connects to each SOCKET, which is the path of a Unix socket. The program uses only the standard library,
+so that every user can run it.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def accepts(name: str) -> bool:
 
 
 def asked(name: str, port: int) -> list[str]:
-    """Return the kinds ("master", "node", "service") that a port offers under the name `name`."""
+    """Return the roles ("master", "node", "service") in which the port answers to requests for `name`."""
     answers = {
         "master": f"/{name}".encode() in call(port, "getSystemState"),
         "node": f"/{name}".encode() in call(port, "getName"),
@@ -77,7 +77,7 @@ def asked(name: str, port: int) -> list[str]:
 
 
 def found(name: str, paths: list[str]) -> Iterator[str]:
-    """Yield each master, node, service and socket that was found."""
+    """Yield "master", "node", "service" or "socket" for each one that is found, and each open path."""
     with ThreadPoolExecutor(30) as threads:
         for kinds in threads.map(lambda port: asked(name, port), set(ports())):
             yield from kinds

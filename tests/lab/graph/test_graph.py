@@ -1,4 +1,4 @@
-"""Tests of commands that start, join and leave graphs."""
+"""Tests of commands that start, join and leave ROS graphs."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def sockets(folder: Path) -> list[str]:
 
 
 def test_the_master_has_the_usual_port_on_each_graph(graph: Graph, tmp_path: Path) -> None:
-    """Two graphs at the same time both have a master at port 11311, and each graph has only its own nodes."""
+    """Two graphs can run at the same time: each graph has a master at port 11311 and its own nodes."""
     other = join_or_start(Which.ALONE, tmp_path)
     other.wait_for_master()
     assert graph.uri == other.uri == URI
@@ -62,9 +62,9 @@ def test_the_master_has_the_usual_port_on_each_graph(graph: Graph, tmp_path: Pat
 
 
 def test_a_graph_ends_with_its_last_command(graph: Graph, tmp_path: Path) -> None:
-    """A second command joins the graph of the first command.
+    """A second command joins the graph that the first command has started.
 
-    After the first command's end, the graph still runs. After the last command's end, the graph ends too.
+    When the first command exits, the graph still runs. When the last command exits, the graph ends.
     """
     second = join_or_start(Which.RUNNING, tmp_path)
     second.wait_for_master()
@@ -88,14 +88,14 @@ def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
 
 
 def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
-    """If the process that holds a graph gets SIGKILL, the master ends.
+    """If the process that holds a graph is killed with SIGKILL, the master of the graph ends.
 
     The socket file of the killed process is removed when the next command starts or ends.
     """
     processes = of_graphs(tmp_path)
     os.kill(processes[0], signal.SIGKILL)
     assert all_gone(processes)
-    assert len(sockets(tmp_path)) == 1  # the socket of the killed holder, which accepts no connections
+    assert len(sockets(tmp_path)) == 1  # the socket of the killed process; it accepts no connections
     later = join_or_start(Which.RUNNING, tmp_path)
     later.wait_for_master()
     assert nodes(later) == ["/rosout"]
@@ -105,7 +105,7 @@ def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
 
 
 def test_without_namespaces_the_graph_is_in_the_machines_network(tmp_path: Path) -> None:
-    """If the machine forbids namespaces, the master uses a free port of this machine, and a note says why."""
+    """If the machine forbids namespaces, the master uses a free port of the machine; a note says why."""
     with pytest.MonkeyPatch.context() as patch:
         (tmp_path / "rosmaster").write_text('#!/bin/sh\nexec /usr/bin/rosmaster "$@"\n')
         (tmp_path / "rosmaster").chmod(0o755)
@@ -130,7 +130,7 @@ def test_a_shared_graph_is_in_the_machines_network() -> None:
 def test_a_command_in_a_graph_stays_in_it(graph: Graph) -> None:
     """`course run` inside `course run bash` uses the same network and master.
 
-    With --new-graph, the inner command uses a new network and master.
+    With --new-graph, a `course run` inside `course run bash` uses a new network and a new master.
     """
     script = f"{SHOW}; ./course run sh -c '{SHOW}'; ./course run --new-graph sh -c '{SHOW}'"
     seen = course_run("sh", "-c", script).stdout.split()

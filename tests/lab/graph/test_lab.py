@@ -43,7 +43,7 @@ def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
     uri, network, pid = messages.run(WHERE, "status").split()
     assert uri == "http://localhost:11311"
     assert network != own_namespace("net")
-    assert having(KERNEL, [int(pid)])  # The cell runs in the kernel's main process, which gets interrupts.
+    assert having(KERNEL, [int(pid)])  # The kernel's main process runs this cell.
     served.post("/api/terminals")
     [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(served.process)))
     # nsenter enters the network and then calls exec(), so the shell is in the network only after a short
@@ -81,7 +81,7 @@ def test_nothing_is_left_after_a_kill_and_the_end(served: Service, victim: bytes
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
 def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
-    """Kill `course run`, its master or the graph's holder 100 times, and assert that no process remains."""
+    """After `course run`, its master or the graph's holder was killed 100 times, no process remains."""
     victims = [b"", b"rosmaster\0--core", HOLDER]
     left = []
     for number in range(100):
@@ -92,7 +92,7 @@ def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
 
 
 def killed(victim: bytes, state: Path) -> list[int]:
-    """Start a command, kill the process `victim`, and return the remaining processes.
+    """Start `course run`, kill its process `victim`, and return the processes that still run.
 
     If `victim` is empty, kill `course run` itself.
     """

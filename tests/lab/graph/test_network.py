@@ -47,7 +47,7 @@ def files() -> Iterator[list[int]]:
 
 
 def inside(files: list[int], *command: str) -> subprocess.CompletedProcess[str]:
-    """Run a command in the network until the command exits."""
+    """Run a command in the private network, and wait until the command exits."""
     return subprocess.run(
         [*network.entering(files), *command], capture_output=True, text=True, timeout=30, check=False
     )

@@ -35,7 +35,7 @@ OTHER_USER = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "/u
 
 
 def scan(*command: str, name: str, sockets: list[str] = []) -> list[str]:  # noqa: B006 -- nothing changes it
-    """Run the scanner; `command` is a command prefix that ends with a Python interpreter.
+    """Run the scanner; `command` is the start of a command line, and ends with a Python interpreter.
 
     Return the sorted results without duplicates.
     """
@@ -45,7 +45,7 @@ def scan(*command: str, name: str, sockets: list[str] = []) -> list[str]:  # noq
 
 
 def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
-    """Return the names of the processes' listening sockets that this process can see in /proc/net.
+    """Return the names of the sockets on which `pids` listen and which are visible in /proc/net.
 
     A name is the address of a TCP or UDP socket, or the path of a Unix socket. The addresses have the format
     of /proc/net.
@@ -71,8 +71,8 @@ def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
 def test_a_scan_finds_nothing_but_the_page(served: Service, tmp_path: Path) -> None:
     """A scan from outside the lab's network finds no master, node, service or socket.
 
-    No scan calls or replaces the service. A scan from inside the network finds a master, a node, a service
-    and a socket.
+    During the scan, the service is not called and not replaced. A scan from inside the network finds a
+    master, a node, a service and a socket.
     """
     name = f"hidden_{secrets.token_hex(4)}"
     messages = Messages(served)

@@ -23,7 +23,10 @@ SERVICES = (
 
 
 def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot:
-    """Return a snapshot of the graph. The node `dead` is registered, but its process does not run."""
+    """Return a snapshot of a graph with four nodes.
+
+    The node `dead` is registered, but its process does not run.
+    """
     names = ("/client", "/listener", "/server", "/talker")
     nodes = tuple(
         NodeSeen(name, "http://localhost:1/", "refused" if name == dead else "answered") for name in names
@@ -32,7 +35,7 @@ def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot
 
 
 class Wall:
-    """Stores the messages that a graph panel's model sends."""
+    """Stores the messages that the model of a graph panel sends."""
 
     def __init__(self, snapshot: Snapshot | None = None) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -52,7 +55,7 @@ class Wall:
 
 
 def counts(*messages: int, every: float = 2.0) -> list[Activity]:
-    """Return one Activity for each number in `messages`. The number is the message count of /chatter.
+    """Return one Activity object for each message count of the topic /chatter in `messages`.
 
     The times of two consecutive Activity objects differ by `every` s.
     """
@@ -63,7 +66,7 @@ def counts(*messages: int, every: float = 2.0) -> list[Activity]:
 
 
 def test_a_rate_is_shown_for_its_topic_and_for_each_connection() -> None:
-    """The rate is below the topic's name, and the details contain the rate of each connection."""
+    """The topic's rate is shown below its name, and the details contain the rate of each connection."""
     wall = Wall()
     for activity in counts(100, 120, 140):
         wall.model.count(activity)
@@ -81,7 +84,7 @@ def test_a_topic_without_publisher_or_subscriber_has_no_rate() -> None:
 
 
 def test_before_the_second_count_there_is_no_rate() -> None:
-    """After one count, the details contain the number of messages, but no rate."""
+    """After the first count, the details contain the number of messages, but no rate."""
     wall = Wall()
     wall.model.count(counts(1)[0])
     assert wall.now["notes"]["topic /chatter"] == ""
@@ -107,7 +110,7 @@ def test_nodes_that_are_not_connected() -> None:
 
 
 def test_a_publisher_that_does_not_report_counts() -> None:
-    """If a node does not count its messages, the panel shows no rate and no error."""
+    """If a publisher does not report its message counts, the panel shows no rate and no error."""
     wall = Wall()
     wall.model.count(Activity(0.0, silent=frozenset({"/talker"})))
     assert wall.now["notes"]["topic /chatter"] == "not counted"
@@ -126,7 +129,7 @@ def test_several_publishers_add_up_and_several_listeners_do_not() -> None:
 
 
 def test_counts_never_draw_again_and_are_sent_only_if_they_change() -> None:
-    """If the rates do not change, the panel sends no message to the page."""
+    """If the rates do not change, the panel's model sends no message to the page."""
     wall = Wall()
     for activity in counts(*range(0, 800, 20)):
         wall.model.count(activity)
@@ -145,7 +148,7 @@ def test_notes_fit_below_the_name_of_a_topic() -> None:
 
 
 def test_many_connections_are_shortened() -> None:
-    """A hundred connections are shown as one summary."""
+    """If a topic has a hundred connections, the details end with the row "89 more connections"."""
     listeners = tuple(f"/listener_{number}" for number in range(100))
     wall = Wall(graph(topics=(TopicSeen("/chatter", "a/B", ("/talker",), listeners),)))
     wall.model.count(Activity(0.0))
@@ -161,7 +164,7 @@ CALLERS = {
 
 
 def test_callers_are_listed_and_ended_callers_are_marked() -> None:
-    """Callers are listed with the latest caller first, and callers that have ended are marked."""
+    """The latest caller is first in the list of callers, and callers that have ended are marked."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert wall.now["callers"]["service /robot/ask"] == [
@@ -175,7 +178,7 @@ def test_callers_are_listed_and_ended_callers_are_marked() -> None:
 
 
 def test_a_killed_caller_is_gone() -> None:
-    """A caller whose process was killed is marked."""
+    """A caller whose process was killed is marked as gone."""
     wall = Wall(graph(dead="/client"))
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert [each["gone"] for each in wall.now["callers"]["service /robot/ask"]] == [True, True]
@@ -225,7 +228,7 @@ def test_the_details_contain_the_fields_of_a_type() -> None:
 
 @pytest.mark.parametrize("kind", ["nowhere/Thing", "nonsense", ""])
 def test_a_type_that_is_not_here(kind: str) -> None:
-    """The details of an unknown type cause no error."""
+    """If the type of a topic is unknown, the topic's details cause no error."""
     wall = Wall(graph(topics=(TopicSeen("/t", kind, ("/talker",), ()),)))
     facts = dict(next(each for each in wall.said[-1]["facts"] if each["key"] == "topic /t")["facts"])
     assert facts.get("fields", "").startswith("nowhere/Thing: no message type" if "/" in kind else "")
@@ -248,7 +251,7 @@ def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
 def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) -> RateMeter:
     """Return a rate meter that has read the message count of a steady publisher every 2 s.
 
-    Each reading is up to `late` s late.
+    Each reading is at most `late` s late.
     """
     meter, chance = RateMeter(), random.Random(seed)  # noqa: S311 - a test's own dice
     for turn in range(int(seconds / 2) + 1):
@@ -258,7 +261,7 @@ def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) ->
 
 @pytest.mark.parametrize("rate", [0.2, 0.5, 1, 5, 10, 15, 62, 100, 1000])
 def test_a_steady_rate_is_found_and_does_not_change(rate: float) -> None:
-    """After 30 s, the panel shows the rate of the publisher."""
+    """After 30 s, the meter's rate is the rate of the publisher, and does not change."""
     seen = {counted(rate, seconds, late=0.03).rate for seconds in range(34, 60, 2)}
     assert len(seen) == 1
     assert seen.pop() == pytest.approx(rate, rel=0.06 if rate > 1 else 0.2)
@@ -309,7 +312,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The displayed rate differs by at most `doubt` from `rate`, and has as few digits as possible."""
+    """The result differs by at most `doubt` from `rate`, and has as few digits as possible."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 
@@ -325,7 +328,7 @@ def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, show
     ],
 )
 def test_a_rate_as_text(rate: float, shown: str) -> None:
-    """The rate has a unit and at most 12 characters."""
+    """A rate as text has a unit, and at most 12 characters."""
     assert rate_text(rate) == shown
     assert len(shown) <= 12
 

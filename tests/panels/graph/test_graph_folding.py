@@ -25,7 +25,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def graph(*topics: tuple[str, str, str], services: dict[str, str] | None = None) -> Snapshot:
-    """Return a snapshot of these topics (publisher, name, subscriber) and services."""
+    """Return a snapshot with `topics`, as (publisher, name, subscriber), and with `services`."""
     offered = services or {}
     names = sorted({name for who, _, whom in topics for name in (who, whom)} | set(offered.values()))
     return Snapshot(
@@ -168,7 +168,7 @@ def test_a_wide_drawing_is_turned_upright() -> None:
 
 
 def test_frame_and_box_are_one_button_in_two_states() -> None:
-    """A frame and its folded box have the same key, so that the keyboard focus does not change."""
+    """A frame and its folded box have the same `data-key`, so that the keyboard focus does not change."""
     for fold, state in ((False, "true"), (True, "false")):
         root = ElementTree.fromstring(svg(laid_out(folded(picture(TURTLE), {"/turtle1/": fold}))))  # noqa: S314 - our own
         button = next(each for each in root.iter(f"{SVG}g") if each.get("data-key") == "namespace /turtle1/")
@@ -180,13 +180,13 @@ def test_frame_and_box_are_one_button_in_two_states() -> None:
 
 
 def said() -> tuple[GraphModel, list[dict[str, object]]]:
-    """Return a model, and the list to which the model adds its messages."""
+    """Return a model, and the list of the messages that the model sends."""
     heard: list[dict[str, object]] = []
     return GraphModel(lambda **parts: heard.append(parts)), heard
 
 
 def test_a_folded_namespace_stays_folded_when_the_graph_changes() -> None:
-    """A namespace that the student has folded stays folded after a new node appears."""
+    """If the student has folded a namespace, it stays folded when a new node appears."""
     model, heard = said()
     model.see(TURTLE)
     assert heard[-1]["spaces"] == [{"name": "/turtle1/", "folded": False}]
@@ -211,7 +211,7 @@ def test_the_list_contains_folded_shapes() -> None:
 
 @pytest.mark.parametrize("noise", [False, True])
 def test_loggers_of_a_node_are_a_namespace(noise: bool) -> None:
-    """If the logger services are shown, the two logger services of each node form a namespace."""
+    """If the panel shows the logger services, the two logger services of each node form a namespace."""
     loggers = {f"/sim/{name}": "/sim" for name in ("get_loggers", "set_logger_level")}
     shown = picture(graph(("/sim", "/pose", "/watch"), services=loggers), noise=noise)
     assert list(namespaces(shown)) == ["/sim/"] * noise

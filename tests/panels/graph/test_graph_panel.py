@@ -22,7 +22,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 def snapshot(
     *, topics: tuple[TopicSeen, ...] = (), services: tuple[ServiceSeen, ...] = (), dead: str = ""
 ) -> Snapshot:
-    """Return a snapshot of these topics and services, and of the nodes that use them."""
+    """Return a snapshot of `topics`, `services`, and the nodes that publish, subscribe or serve them."""
     names = {name for topic in topics for name in (*topic.publishers, *topic.subscribers)}
     names |= {service.node for service in services}
     nodes = tuple(
@@ -126,7 +126,7 @@ def test_each_shape_has_an_accessible_name() -> None:
     assert root.findtext(f"{SVG}desc") == "five shapes"
     assert (
         len(root.findall(f".//{SVG}polygon")) == 2 + 2 + 1
-    )  # The topic has two arrowheads, the service has two arrowheads, and the service's shape is a polygon.
+    )  # The topic has two arrowheads, the service has two arrowheads, and the service is drawn as a polygon.
 
 
 def test_a_name_cannot_bring_markup_into_the_page() -> None:
@@ -138,7 +138,7 @@ def test_a_name_cannot_bring_markup_into_the_page() -> None:
 
 
 class Wall:
-    """A model and the messages that the model sends."""
+    """A model, and the list of the messages that the model sends."""
 
     def __init__(self, **options: str) -> None:
         self.said: list[dict[str, Plain]] = []

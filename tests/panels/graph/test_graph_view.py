@@ -21,12 +21,12 @@ BEGAN = 1_800_000_000.0  # s since the epoch
 
 
 def shown(drawing: str = "<svg/>", **notes: str) -> tuple[Scene, ActivityState]:
-    """Return a state of the panel; `notes` are the texts below the topics' names."""
+    """Return one state of the graph panel; `notes` are the texts below the names of the topics."""
     return {"drawing": drawing, "facts": [], "spaces": [], "trouble": ""}, {"notes": notes}
 
 
 def filled(*states: tuple[Scene, ActivityState]) -> History:
-    """Return a recording with one state per second."""
+    """Return a recording that contains one state for each second."""
     history = History()
     history.start(BEGAN, *states[0])
     for number, state in enumerate(states[1:], start=1):
@@ -118,7 +118,7 @@ def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
 def test_a_node_that_is_late_once_is_not_lost(
     panel: GraphPanel, pulse: NodeProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The panel reports a node as silent only after two requests without a response."""
+    """A node is reported as silent only if it does not respond to two requests in succession."""
     seen = panel._model.snapshot
     assert seen is not None
     late = Snapshot(seen.master, tuple(replace(each, reach="silent") for each in seen.nodes), (), ())
@@ -138,7 +138,7 @@ def test_an_unchanged_graph_has_no_recording() -> None:
 
 
 def test_moments_and_their_scenes() -> None:
-    """If the same drawing is shown several times, the recording contains it once."""
+    """If a drawing is shown several times, the recording contains this drawing once."""
     kept = filled(shown("a"), shown("a", x="2 Hz"), shown("b"), shown("a"))
     state = kept.state(BEGAN + 8.5)
     assert state["began"] == BEGAN
@@ -149,14 +149,14 @@ def test_moments_and_their_scenes() -> None:
 
 
 def test_moments_stay_in_order_if_the_clock_is_set_back() -> None:
-    """The entries of a recording are in the order of their times."""
+    """If the clock is set back, the entries of a recording are still in the order of their times."""
     history = filled(shown("a"), shown("b"))
     history.add(BEGAN - 3600, *shown("c"))
     assert [moment[0] for moment in history.state(BEGAN - 3600)["moments"]] == [0, 1000, 1000]
 
 
 def test_nothing_is_recorded_before_the_start_and_after_the_end() -> None:
-    """A new start deletes the previous recording."""
+    """A new start of the recording deletes the previous recording."""
     history = History()
     history.add(BEGAN, *shown("a"))
     history.start(BEGAN, *shown("b"))
@@ -177,7 +177,7 @@ def test_the_number_of_moments_is_limited() -> None:
 
 
 def test_the_size_of_a_recording_is_limited() -> None:
-    """If the drawings of a recording are too large together, the oldest drawings are removed."""
+    """If all drawings together are larger than the limit, the oldest drawings are removed."""
     kept = filled(*(shown(f"{turn:020000}") for turn in range(40)))
     state = kept.state(BEGAN + 40)
     assert len(json.dumps(state)) < 1.1 * BYTES

@@ -35,7 +35,7 @@ CMake Error at my_services/CMakeLists.txt:6 (add_service_files):
 
 -- Configuring incomplete, errors occurred!
 """
-# Each entry has an error message of rospy 1.15 and a text that its explanation must contain.
+# Each entry of MESSAGES has an error message of rospy 1.15, and a text that the explanation must contain.
 RESPONDED = "ServiceException: service [/x] responded with an error: "
 SERVER_REFUSED = f"{RESPONDED}b'service cannot process request: "
 HANDLER_FAILED = f"{RESPONDED}b'error processing request: "
@@ -78,7 +78,7 @@ PASTED = {
 
 @pytest.mark.parametrize(("text", "stretch"), PASTED.items(), ids=range(len(PASTED)))
 def test_pasted_text_is_explained(text: str, stretch: str) -> None:
-    """In a pasted text, such as a log, explain() explains the last error."""
+    """If a pasted text, such as a log, contains several errors, explain() explains the last error."""
     found = explain(text)
     assert found.known
     assert stretch in found.cause
@@ -169,7 +169,7 @@ def test_an_explanation_in_a_notebook() -> None:
 
 
 def test_each_row_names_an_existing_chapter() -> None:
-    """Each row of the table names an existing chapter."""
+    """Each row of the table of explanations names an existing chapter."""
     for pattern, cause, remedy, chapter in TABLE:
         assert chapter in CHAPTERS, pattern
         assert cause.endswith("."), pattern
@@ -178,7 +178,7 @@ def test_each_row_names_an_existing_chapter() -> None:
 
 @pytest.mark.parametrize(("message", "part"), MESSAGES.items(), ids=range(len(MESSAGES)))
 def test_each_error_has_its_own_explanation(message: str, part: str) -> None:
-    """Each error of a call has a separate explanation."""
+    """Each error that a call can raise has a separate explanation."""
     explanation = known(message)
     assert explanation is not None
     assert part in explanation.cause

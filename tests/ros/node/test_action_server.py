@@ -1,4 +1,4 @@
-"""Tests of action servers: what happens if a cell runs again, and after stop()."""
+"""Tests of action servers in a cell that runs again, and after stop()."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ def joined(kernel: Kernel) -> Kernel:
 
 
 def test_a_goal_is_executed(joined: Kernel) -> None:
-    """The client receives the result of the function."""
+    """The client of the action receives the result of the server's function."""
     assert joined.run('server = ActionServer("/fetch", FetchAction, returning(3))\nresult = asked()') == 3
 
 
 def test_serving_again_replaces(joined: Kernel, master: PrivateMaster) -> None:
-    """After the cell runs again, only the new function executes goals."""
+    """If the cell runs again, only the new function executes goals."""
     joined.run('server = ActionServer("/fetch", FetchAction, returning(1))')
     joined.run('server = ActionServer("/fetch", FetchAction, returning(2))')
     assert joined.run("result = [asked(), asked()]") == [2, 2]
@@ -74,7 +74,7 @@ def test_a_kernel_with_an_action_ends_by_itself(master: PrivateMaster) -> None:
 
 
 def test_stop_removes_the_action_from_the_graph(joined: Kernel, master: PrivateMaster) -> None:
-    """stop() unregisters the topics and cancels the running goal."""
+    """stop() unregisters the topics of the action, and cancels the running goal."""
     joined.run("""
         server = ActionServer("/fetch", FetchAction, until_called_off)
         client = actionlib.SimpleActionClient("/fetch", FetchAction)

@@ -20,7 +20,7 @@ JOIN = "from course_pkg.ros import join\nnode = join('student')"
 
 
 def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
-    """Another join() returns the same node."""
+    """If join() is called again, it returns the same node."""
     kernel.run(JOIN)
     assert kernel.run("result = join('student') is node, node.name, repr(node)") == [
         True,
@@ -38,7 +38,7 @@ def test_private_master_without_ros_master_uri() -> None:
 
 
 def test_workspace_is_found_without_sourcing() -> None:
-    """A kernel can import the course's types without ROS's environment variables."""
+    """A kernel can import the course's types even if ROS's environment variables are not set."""
     bare = dict.fromkeys(("ROS_PACKAGE_PATH", "CMAKE_PREFIX_PATH", "ROS_MASTER_URI", "ROS_HOSTNAME"))
     with Kernel({**bare, "PYTHONPATH": str(Path(__file__).parents[2])}) as kernel:
         kernel.run(JOIN)
@@ -61,7 +61,10 @@ def test_malformed_uri(uri: str) -> None:
 
 
 def test_no_program_at_the_uri() -> None:
-    """If no master is at the address, join() raises an error. After the address was removed, join() works."""
+    """If no master is at the address in ROS_MASTER_URI, join() raises an error.
+
+    After ROS_MASTER_URI was removed, join() works.
+    """
     with Kernel({"ROS_MASTER_URI": "http://localhost:1"}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MasterUnreachable"
@@ -71,7 +74,7 @@ def test_no_program_at_the_uri() -> None:
 
 
 def test_silent_program_at_the_uri() -> None:
-    """If the program at the address sends nothing, join() raises an error within 4 s."""
+    """If the program at ROS_MASTER_URI sends nothing, join() raises an error within 4 s."""
     with socket.create_server(("127.0.0.1", 0)) as mute, Kernel() as kernel:
         uri = f"http://localhost:{mute.getsockname()[1]}"
         kernel.run(f"import os; os.environ['ROS_MASTER_URI'] = {uri!r}; from course_pkg.ros import join")
@@ -81,7 +84,7 @@ def test_silent_program_at_the_uri() -> None:
 
 
 def test_another_program_at_the_uri(tmp_path: Path) -> None:
-    """If a web server is at the address, join() says that this program is not a master."""
+    """If a web server is at the address, the error of join() says that no master is at this address."""
     command = [sys.executable, "-u", "-m", "http.server", "-b", "127.0.0.1", "0"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=tmp_path) as web:
         assert web.stdout is not None
@@ -92,7 +95,7 @@ def test_another_program_at_the_uri(tmp_path: Path) -> None:
 
 
 def test_two_kernels_with_one_name(kernel: Kernel) -> None:
-    """If two kernels use the same name at the same time, the second kernel gets an error."""
+    """If two kernels use the same name at the same time, the second kernel gets an error from join()."""
     kernel.run(JOIN)
     with Kernel() as second:
         reply = second.ask(JOIN)
@@ -185,7 +188,7 @@ def test_private_master_killed() -> None:
 
 
 def test_shared_master_restarted() -> None:
-    """If a shared master was restarted, another join() registers the services and topics again."""
+    """If a shared master was restarted, a second join() registers the services and topics again."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
@@ -247,7 +250,7 @@ def test_exit_while_the_master_is_stopped() -> None:
 
 
 def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
-    """After leave(), a kernel can call join() again and offer services."""
+    """After leave(), a kernel can call join() again, and can then offer services."""
     kernel.run(
         JOIN
         + """

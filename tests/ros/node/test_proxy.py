@@ -23,7 +23,7 @@ CALL = """
 from std_srvs.srv import Trigger
 node.call({name!r}, Trigger, timeout=0.5)
 """
-LONGEST = 2.0  # A call with a timeout of 0.5 s may take this many seconds on a busy machine.
+LONGEST = 2.0  # On a busy machine, a call with a timeout of 0.5 s is allowed to take this many seconds.
 
 RAW_SERVER = """
 import rospy, sys, threading
@@ -59,7 +59,7 @@ def joined(kernel: Kernel) -> Kernel:
 
 @contextmanager
 def listening(accept: bool = True) -> Iterator[int]:
-    """Yield the port of a server that never sends data.
+    """Yield the port of a server that never sends any data.
 
     If `accept` is false, the server accepts no connections.
     """
@@ -88,7 +88,7 @@ def registered(name: str, uri: str) -> Iterator[None]:
 
 
 def times_out(kernel: Kernel, name: str) -> str:
-    """Assert that a call in the kernel raises CallTimeout in time, and return the error message."""
+    """Assert that a call in the kernel raises CallTimeout in time; return the message of CallTimeout."""
     reply = kernel.ask(CALL.format(name=name), timeout=20)
     assert reply.error == "CallTimeout", reply
     assert 0.5 <= reply.took < LONGEST
@@ -97,7 +97,7 @@ def times_out(kernel: Kernel, name: str) -> str:
 
 @pytest.mark.parametrize("name", ["/raw/sleeps", "/raw/exits"])
 def test_handler_that_never_answers(joined: Kernel, raw: NodeProcess, name: str) -> None:
-    """If the handler never returns, the call times out, and other calls work."""
+    """If the handler never returns, the call times out, and calls of other services work."""
     assert "its handler is still working" in times_out(joined, name)
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
@@ -183,7 +183,7 @@ def test_interrupt_of_a_call(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
-    """A persistent proxy connects to the new server after its server was replaced."""
+    """If the server of a service is replaced, a persistent proxy connects to the new server."""
     joined.run(
         "from std_srvs.srv import Trigger; proxy = BoundedProxy('/raw/well', Trigger, persistent=True)"
     )
@@ -194,7 +194,7 @@ def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
 
 
 def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess) -> None:
-    """After a timeout, a persistent proxy uses a new connection."""
+    """After a call has timed out, a persistent proxy uses a new connection."""
     joined.run(
         "from std_srvs.srv import Trigger; proxy = BoundedProxy('/raw/well', Trigger, persistent=True)"
     )
@@ -218,12 +218,12 @@ def switching_often() -> Iterator[None]:
 
 
 def watching() -> list[threading.Thread]:
-    """Return all watchdog threads of this process."""
+    """Return all threads of this process that belong to a watchdog."""
     return [thread for thread in threading.enumerate() if thread.name == "call-watchdog"]
 
 
 def test_an_action_is_repeated_until_it_is_disarmed() -> None:
-    """After its deadline, an action runs repeatedly until disarm() is called."""
+    """After its deadline, an action of the watchdog runs repeatedly until disarm() is called."""
     guard, done = Watchdog(), list[float]()
     number = guard.arm(time.monotonic(), lambda: done.append(time.monotonic()))
     eventually(lambda: len(done) >= 3)
@@ -235,7 +235,7 @@ def test_an_action_is_repeated_until_it_is_disarmed() -> None:
 
 
 def _round(guard: Watchdog) -> None:
-    """Arm another action, and wait until the watchdog's thread has run it."""
+    """Arm an action with the watchdog, and wait until the watchdog has run the action."""
     told = threading.Event()
     number = guard.arm(time.monotonic(), told.set)
     assert told.wait(5)
@@ -243,7 +243,7 @@ def _round(guard: Watchdog) -> None:
 
 
 def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The watchdog's thread ends if no action is armed, and a new thread starts for the next action."""
+    """The watchdog's thread ends when no action is armed; the next action starts a new thread."""
     monkeypatch.setattr(watchdog, "LINGER", 0.05)
     before = set(watching())
     guard = Watchdog()
@@ -257,7 +257,7 @@ def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch
 
 
 def test_no_deadline_is_missed_when_the_thread_ends_and_starts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An action is called in time, even if the watchdog's thread ends at the same moment."""
+    """An action of the watchdog is called in time, even if the watchdog's thread ends at the same moment."""
     monkeypatch.setattr(watchdog, "LINGER", 0.0005)
     guard, missed = Watchdog(), list[int]()
 

@@ -33,7 +33,7 @@ def joined(kernel: Kernel) -> Kernel:
 
 
 def test_a_message_reaches_a_connected_subscriber(joined: Kernel) -> None:
-    """Both messages reach the connected subscriber, and the counts `unheard` and `dropped` are 0."""
+    """Two messages reach the connected subscriber, and the counts `unheard` and `dropped` are 0."""
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = Publisher("/numbers", UInt32)
@@ -74,7 +74,7 @@ def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
 
 
 def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: PrivateMaster) -> None:
-    """If the queue is full, the sum of sent, waiting and dropped messages is the number of all messages."""
+    """If the queue is full, the numbers of sent, waiting and dropped messages add up to all messages."""
     with Kernel() as other:
         other.run(LISTEN + 'heard = node.subscribe("/long", String)')
         kernel.run(START + 'spoken = Publisher("/long", String, queue_size=2); connected(spoken)')

@@ -74,7 +74,7 @@ def test_burst_of_clients(joined: Kernel) -> None:
 
 
 def test_calling_itself(joined: Kernel) -> None:
-    """A handler can call another service of its own node."""
+    """A handler can call another service of the same node."""
     assert (
         joined.run("""
         rospy.Service("/inner", Trigger, lambda request: (True, "inner"))

@@ -1,4 +1,4 @@
-"""Tests that run cells with plain rospy again."""
+"""Tests of cells that run again and that create services, topics or timers with plain rospy."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_subscriber_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_publisher_and_subscriber_leave_the_graph(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """If the changed cell creates no publisher, the publisher of the last run is unregistered."""
+    """If the cell runs again without the line that creates a publisher, the old publisher is unregistered."""
     cell = """
     publisher = rospy.Publisher("/left", UInt32, queue_size=1)
     subscriber = rospy.Subscriber("/left", UInt32, print)
@@ -89,7 +89,7 @@ def test_publisher_and_subscriber_leave_the_graph(notebook: NotebookKernel, mast
 
 
 def test_timer_cell_runs_again(notebook: NotebookKernel) -> None:
-    """Only the timer of the last run calls its callback."""
+    """After a second run of the cell, only the new timer calls its callback."""
     for number in (1, 2):
         notebook.run(
             f"calls = []\ntimer = rospy.Timer(rospy.Duration(0.01), lambda _: calls.append({number}))",
@@ -144,14 +144,14 @@ def test_one_cell_with_one_service_twice(notebook: NotebookKernel) -> None:
 
 
 def test_cells_without_ids(notebook: NotebookKernel) -> None:
-    """Without cell ids, each execution counts as a separate cell."""
+    """If cells have no ids, each execution counts as a separate cell."""
     serve = "service = rospy.Service('/no_id', Trigger, lambda r: (True, ''))"
     silent(notebook.run(serve))
     assert notebook.run(serve) == Shown(out=REPLACES.format("/no_id"))
 
 
 def test_creation_in_a_handler_belongs_to_no_cell(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """If a handler creates a publisher, no cell removes this publisher."""
+    """A publisher that a handler creates belongs to no cell, so no cell removes it."""
     cell = """
     def handle(request):
         global made
@@ -191,14 +191,14 @@ def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> Non
 
 
 def test_cell_within_a_cell(notebook: NotebookKernel) -> None:
-    """Objects that the code below %%capture creates belong to the cell."""
+    """If a cell begins with %%capture, the service that its code creates belongs to this cell."""
     cell = "%%capture\nservice = rospy.Service('/captured', Trigger, lambda r: (True, ''))"
     silent(notebook.run(cell, "captured"))
     silent(notebook.run(cell, "captured"))
 
 
 def test_join_again_keeps_the_nodes_own_services(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """After another join(), /rosout and the logger services stay registered."""
+    """If join() is called again, /rosout and the logger services stay registered."""
     for _ in range(2):
         silent(notebook.run("node = join('student')", "join"))
     state = MasterClient(master.uri).system_state()
@@ -215,9 +215,9 @@ def test_init_node_after_join(notebook: NotebookKernel) -> None:
 
 
 def test_cell_that_runs_again_without_a_master() -> None:
-    """A cell can run again even if there is no master.
+    """If there is no master, a cell that offers a service can still run again.
 
-    After a new master has started, the service of the cell works again.
+    After a new master has started, the cell's service works again.
     """
     with PrivateMaster() as master, NotebookKernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run("import rospy\nfrom std_srvs.srv import Trigger\nfrom course_pkg import join")

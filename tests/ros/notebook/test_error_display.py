@@ -14,7 +14,7 @@ MOST = 12
 
 
 def without_cell_numbers(lines: list[str]) -> list[str]:
-    """Replace each cell number by an asterisk, and return the lines."""
+    """Return the lines of the traceback, with an asterisk in place of each cell number."""
     return [
         line.split("In[")[0] + "In[*]" + line.split("]", 1)[1] if "In[" in line else line for line in lines
     ]

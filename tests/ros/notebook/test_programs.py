@@ -1,4 +1,4 @@
-"""Tests of %rosrun and %roslaunch."""
+"""Tests of the magics %rosrun and %roslaunch."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def value(notebook: NotebookKernel, code: str) -> str:
 
 
 def test_rosrun_returns_a_handle(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """The returned object contains the program's output and can stop the program."""
+    """%rosrun returns an object that contains the program's output and can stop the program."""
     notebook.run("server = %rosrun course_pkg server", "rosrun")
     assert notebook.run("server.wait(service='/getGeometry')") == Shown()
     assert value(notebook, "server") == "<rosrun course_pkg server: running>"

@@ -1,4 +1,4 @@
-"""Tests that every started process ends with its owner."""
+"""Tests that every started process ends when the process that started it ends."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ def family(pid: int) -> list[int]:
 
 
 def gone(pids: list[int]) -> bool:
-    """Return whether all these processes have exited. A zombie counts as exited."""
+    """Return whether all processes in `pids` have exited. A zombie counts as exited."""
     return all(process_state(pid) == "Z" for pid in pids)
 
 
 def port_is_free(uri: str) -> bool:
-    """Return whether no process listens on the port of this address."""
+    """Return whether no process listens on the port of the address `uri`."""
     with socket.socket() as probe:
         return probe.connect_ex(("127.0.0.1", int(uri.rstrip("/").rpartition(":")[2]))) != 0
 
@@ -86,7 +86,7 @@ while True:
 
 
 def test_node_that_ignores_signals_on_a_shared_master(master: PrivateMaster) -> None:
-    """A node that ignores SIGTERM is killed and unregistered after its owner has exited."""
+    """A node that ignores SIGTERM is killed and unregistered after the kernel that started it was killed."""
     kernel = Kernel()
     kernel.run(f"""
 import sys
@@ -115,7 +115,7 @@ def test_normal_end_leaves_nothing(master: PrivateMaster) -> None:
 
 
 def test_interrupt_does_not_end_the_nodes(kernel: Kernel) -> None:
-    """An interrupt of the kernel does not reach its nodes."""
+    """If the kernel is interrupted, its nodes do not receive the interrupt."""
     kernel.run(
         "from course_pkg.ros import join; node = join('owner'); server = node.run('course_pkg', 'server')"
     )
@@ -175,7 +175,7 @@ with temporary_folder("killed-"):
 
 
 def test_exit_status_is_passed_on() -> None:
-    """`returncode` is the exit status of the command, or the negative signal number."""
+    """`returncode` is the exit status of the command, or -n if signal n ended the command."""
     for command, status in (("exit 3", 3), ("kill -9 $$", -9), ("true", 0)):
         process = SupervisedProcess(["sh", "-c", command])
         assert process.wait(5)
@@ -241,7 +241,7 @@ def test_stopped_node_is_ended(master: PrivateMaster) -> None:
 
 
 def test_everything_listens_on_loopback_only(kernel: Kernel) -> None:
-    """All sockets of a kernel, its master and its nodes listen only on 127.0.0.1."""
+    """A kernel, its master and its nodes listen only on 127.0.0.1."""
     kernel.run(EVERYTHING)
     ports = listening_ports(kernel.pid)
     assert len(ports) >= 7

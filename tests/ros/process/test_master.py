@@ -59,7 +59,7 @@ def test_port_of_a_killed_master_is_free(master: PrivateMaster) -> None:
 
 
 def test_the_master_of_ros_master_uri_is_used(master: PrivateMaster) -> None:
-    """If ROS_MASTER_URI is set, find_or_start_master() returns this master."""
+    """If ROS_MASTER_URI is set, find_or_start_master() returns the master at this address."""
     assert find_or_start_master().uri == master.uri
 
 
@@ -119,7 +119,7 @@ def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
 
 
 def test_registrations(master: PrivateMaster) -> None:
-    """A client can look up a registration, and can remove it only with the registered address."""
+    """A client can look up a registration, but can remove it only with the registered address."""
     client = MasterClient(master.uri)
     client.register_service("/node", "/service", "rosrpc://localhost:5", "http://localhost:4/")
     client.register_publisher("/node", "/topic", "std_msgs/UInt32", "http://localhost:4/")

@@ -96,7 +96,7 @@ def test_waiting_checks_the_process(kernel: Kernel) -> None:
 
 
 def test_stop_unregisters(master: PrivateMaster) -> None:
-    """After stop(), the process has no registrations, even if stop() had to kill it."""
+    """After stop(), the process has no registrations, even if stop() had to kill the process."""
     deaf = """
 import rospy, signal, threading
 for number in (signal.SIGINT, signal.SIGTERM):
@@ -147,7 +147,7 @@ def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
 
 
 def test_running_again_replaces(kernel: Kernel) -> None:
-    """run() ends an earlier process with the same node name, but not a process with another node name."""
+    """run() ends an earlier process that has the same node name, but no other process."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")

@@ -36,7 +36,7 @@ def core(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Roscore:
 
 
 def test_the_graph_is_the_same_as_with_roscore(core: Roscore) -> None:
-    """The node, its services and the parameters are the same as with roscore."""
+    """The nodes, services and parameters of a Roscore are the same as with the command roscore."""
     with core:
         client = MasterClient(core.uri)
         state = client.system_state()
@@ -59,7 +59,7 @@ def test_what_a_node_logs_is_in_the_log_of_rosout(core: Roscore, tmp_path: Path)
 def test_it_listens_on_loopback_only(core: Roscore) -> None:
     """/rosout listens only on 127.0.0.1.
 
-    A library that is built from loopback.c replaces the function that binds roscpp's XML-RPC server.
+    For this, a library that is built from loopback.c replaces bind() of roscpp's XML-RPC server.
     """
     with core:
         [rosout] = processes(descendants(os.getpid()))
@@ -69,7 +69,7 @@ def test_it_listens_on_loopback_only(core: Roscore) -> None:
 
 
 def test_stop_ends_all_processes_and_start_works_again(core: Roscore) -> None:
-    """stop() ends both processes, and start() works again after stop()."""
+    """stop() ends the master and /rosout, and start() works again after stop()."""
     core.start()
     first, pids = core.uri, descendants(os.getpid())
     assert processes(pids)

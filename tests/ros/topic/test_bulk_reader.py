@@ -10,7 +10,7 @@ from tests.support import eventually
 
 
 class Notes:
-    """Stores everything that a reader passes to its callbacks."""
+    """Stores everything that a bulk reader passes to its callbacks."""
 
     def __init__(self) -> None:
         self.heard: dict[str, list[bytes]] = {}
@@ -26,7 +26,7 @@ class Notes:
         self.looks += 1
 
     def reader(self) -> BulkReader:
-        """Return a reader whose callbacks are methods of this object."""
+        """Return a bulk reader whose callbacks are methods of this object."""
         return BulkReader(["std_msgs/UInt32"], self.hear, self.missed.append, self.look)
 
 

@@ -30,7 +30,7 @@ NUMBER = {"name": "std_msgs/Float64", "text": ""}
 
 
 class Reports:
-    """The reports of a topic process: the latest values and all received messages."""
+    """The reports that a topic process has sent: the latest values, and all received messages."""
 
     def __init__(self, topic: str = "/speed") -> None:
         self.parts: Report = {}
@@ -39,7 +39,7 @@ class Reports:
         self.process = TopicProcess(topic, self._report, self._lose)
 
     def published(self, part: str) -> Plain:
-        """Return the value `part` from the latest report about the publisher."""
+        """Return the value with the name `part` from the latest report about the publisher."""
         return self.parts.get("publisher", {}).get(part)
 
     def _report(self, _process: TopicProcess, report: Report) -> None:
@@ -52,7 +52,7 @@ class Reports:
 
 @pytest.fixture
 def reports(master: PrivateMaster) -> Iterator[Reports]:
-    """Start a topic process on /speed, and wait until the process has found the graph."""
+    """Start a topic process for the topic /speed, and wait until it has found the graph."""
     assert master.uri
     reports = Reports()
     eventually(lambda: reports.parts.get("connections"), timeout=20)
@@ -81,7 +81,7 @@ def test_rate_of_recent_messages() -> None:
 
 
 def test_rate_of_rare_and_of_frequent_messages() -> None:
-    """The rate works for one message per 10 s and for 10,000 messages per second."""
+    """The rate is right for one message per 10 s, and for 10,000 messages per second."""
     slow, fast = RateStatistics(), RateStatistics()
     for number in range(10):
         slow.beat(10.0 * number)
@@ -92,9 +92,9 @@ def test_rate_of_rare_and_of_frequent_messages() -> None:
 
 
 def test_a_curve_keeps_extreme_values() -> None:
-    """For each time step, the curve contains the first, smallest, largest and last value.
+    """The curve contains the first, smallest, largest and last value of each time step.
 
-    Values older than 20 s are removed.
+    The curve does not contain values that are older than 20 s.
     """
     curve = DownsampledSeries()
     for at, value in ((0.01, 5.0), (0.02, 9.0), (0.03, 1.0), (0.04, 4.0), (0.05, 3.0), (STEP * 1.5, 2.0)):
@@ -107,7 +107,7 @@ def test_a_curve_keeps_extreme_values() -> None:
 
 
 def test_a_curve_counts_invalid_numbers() -> None:
-    """NaN and infinity are counted, but not stored."""
+    """The curve counts NaN and infinity, but does not store them."""
     curve = DownsampledSeries()
     for value in (1.0, float("nan"), float("inf")):
         curve.add(0.0, value)
@@ -126,7 +126,7 @@ def test_a_timer_ticks_until_it_is_stopped() -> None:
 
 
 def test_a_timer_skips_late_ticks() -> None:
-    """After a slow call, the timer skips the missed calls and counts them."""
+    """If a call takes too long, the timer skips the calls that it has missed, and counts them."""
     held = threading.Event()
     ticks: list[int] = []
 
@@ -142,7 +142,7 @@ def test_a_timer_skips_late_ticks() -> None:
 
 
 def test_a_failing_timer_reports_the_error() -> None:
-    """If the timer's function raises an error, the timer passes the error to its owner."""
+    """If the timer's function raises an error, the timer passes the error to the callback for errors."""
     errors: list[Exception] = []
 
     def tick() -> None:
@@ -170,7 +170,7 @@ def test_a_channel_transfers_whole_messages() -> None:
 
 
 def test_the_numbers_of_a_message_have_paths() -> None:
-    """Each number field has a path, even a field of a nested message or of an array."""
+    """numbers() returns the paths of at most MOST number fields, even in nested messages and arrays."""
     assert numbers(message_type("std_msgs/Float64")) == ["data"]
     assert numbers(message_type("std_msgs/String")) == []
     assert numbers(message_type("geometry_msgs/Twist"))[:2] == ["linear.x", "linear.y"]
@@ -225,7 +225,7 @@ def test_a_number_is_found_in_the_bytes() -> None:
 
 
 def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
-    """The result contains the type of each node of the topic."""
+    """find_connections() returns the type of each node that publishes or subscribes to the topic."""
     with Kernel() as one, Kernel() as other:
         one.run("""
             import rospy
@@ -246,7 +246,7 @@ def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
 
 
 def test_a_first_message_is_lost_and_a_second_is_reported(reports: Reports) -> None:
-    """`unheard` counts the message without a connected subscriber; the next message is received."""
+    """`unheard` counts the first message, which has no connected subscriber; the second one is received."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1.5")
     eventually(lambda: reports.published("deliveries"))
@@ -271,9 +271,9 @@ def test_a_latched_message_is_kept_for_its_subscriber(reports: Reports) -> None:
 
 
 def test_a_publisher_ends_when_it_is_stopped_or_changed(reports: Reports, master: PrivateMaster) -> None:
-    """If the queue size changes, a new publisher replaces the old one.
+    """If the queue size changes, a publisher with the new queue size replaces the old publisher.
 
-    The command `withdraw` unregisters the publisher.
+    The command `withdraw` unregisters the publisher from the topic.
     """
     reports.process.tell("type", **NUMBER)
     publish(reports, "1")
@@ -316,7 +316,7 @@ def test_an_invalid_command_is_reported_and_the_process_continues(reports: Repor
 
 
 def test_messages_of_another_type_are_reported_without_values(reports: Reports, kernel: Kernel) -> None:
-    """A message of another type is reported without values."""
+    """The topic process reports a message of another type without its values."""
     reports.process.tell("type", **NUMBER)
     kernel.run("""
         import rospy
@@ -334,7 +334,7 @@ def test_messages_of_another_type_are_reported_without_values(reports: Reports, 
 
 
 def test_a_type_that_was_made_in_a_notebook(reports: Reports) -> None:
-    """The process can use a type that a notebook has made from text."""
+    """The topic process can use a message type that a notebook has compiled from text."""
     kind = compile_message("demo/Spot", "float64 x\nstring what\n")
     reports.process.tell("type", name=kind.name, text=kind.text)
     texts = {"x": "1", "what": "a"}
@@ -354,7 +354,7 @@ def test_end_removes_the_process_and_its_registrations(reports: Reports, master:
 
 
 def test_a_killed_process_is_reported(reports: Reports, master: PrivateMaster) -> None:
-    """If the process is killed, its owner gets an error message and unregisters the node."""
+    """If the topic process is killed, TopicProcess reports an error and unregisters the node."""
     os.kill(reports.process.pid, signal.SIGKILL)
     assert "The panel's node has ended." in eventually(lambda: reports.lost)
     assert look(master.uri).nodes == ()
@@ -362,7 +362,7 @@ def test_a_killed_process_is_reported(reports: Reports, master: PrivateMaster) -
 
 
 def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) -> None:
-    """end() kills a suspended process (SIGSTOP) and unregisters its node."""
+    """end() kills a topic process that is suspended with SIGSTOP, and unregisters its node."""
     eventually(lambda: reports.parts.get("node"))
     with stopped(reports.process.pid):
         for _ in range(100):
@@ -372,7 +372,7 @@ def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) ->
 
 
 def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel) -> None:
-    """Before the command `type`, the process uses the type of the publisher."""
+    """Before the command `type`, the topic process uses the message type of the publisher."""
     kernel.run("""
         import rospy
         from std_msgs.msg import String
@@ -385,7 +385,7 @@ def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel
 
 
 def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
-    """After SIGKILL of its owner, the process exits and is unregistered."""
+    """If the process that started it is killed, the topic process exits and is unregistered."""
     pid = kernel.run("""
         from course_pkg.ros.topic.topic_process import TopicProcess
         reports = []
@@ -401,7 +401,7 @@ def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
 
 
 def test_it_waits_for_a_master_and_registers_again(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Without a master, the process reports the reason, and later registers at a new master."""
+    """Without a master, the topic process reports the reason, and registers when a master has started."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros")))
         patch.setenv("ROS_HOSTNAME", "localhost")

@@ -62,7 +62,7 @@ for _ in range(3):
 
 @pytest.fixture
 def pair(master: PrivateMaster) -> Iterator[tuple[Kernel, Kernel]]:
-    """Run two kernels: a publisher and a subscriber, which are connected."""
+    """Run a publisher and a subscriber in two kernels, and wait until they are connected."""
     with Kernel() as speaker, Kernel() as listener:
         speaker.run(SPEAK)
         listener.run(HEAR)
@@ -98,7 +98,7 @@ def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
 
 
 def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) -> None:
-    """If a node's byte count is too large for XML-RPC, the node is listed as silent."""
+    """If a connection's number of bytes is too large for XML-RPC, the node is listed as silent."""
     speaker, _ = pair
     speaker.run("speaker.impl.connections[0].stat_bytes = 2**31")
     speaker.run("speaker.publish('x')")
@@ -117,7 +117,7 @@ def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
 
 
 def test_a_node_written_in_cpp(master: PrivateMaster) -> None:
-    """The counts of a C++ node are read, although a C++ node uses another format.
+    """The poller reads the message counts of a C++ node, although C++ nodes use another format.
 
     A C++ node does not report callers.
     """
@@ -172,7 +172,7 @@ def test_an_empty_graph() -> None:
     ],
 )
 def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
-    """If a node's response has an unknown format, the unreadable data are ignored."""
+    """If a node's response has an unknown format, the poller ignores the data that it cannot read."""
     server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
     server.register_function(lambda _: answer, "getBusStats")
     server.register_function(lambda _: [1, "", [[1, "/listener", "o", "TCPROS", "/words"]]], "getBusInfo")
@@ -190,7 +190,7 @@ def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
 
 
 def ask(master: PrivateMaster, *nodes: str) -> Callers:
-    """Return the callers that these nodes report."""
+    """Return the callers that the nodes `nodes` report."""
     probes = [callers_probe(uri) for uri in MasterClient(master.uri).lookup_all(nodes, ())[0].values()]
     ask_all(probes, 0.5)
     return {name: callers for probe in probes for name, callers in answered_callers(probe).items()}

@@ -24,7 +24,7 @@ def span(
     note: str = "",
     thread: tuple[str, int] = ("MainThread", 1),
 ) -> SpanData:
-    """Return a span as a process records it."""
+    """Return a span in the format in which a process records it."""
     return {
         "kind": kind,
         "name": name,
@@ -40,18 +40,18 @@ def span(
 
 
 def events(*records: list[SpanData], start: float = 0.0, end: float = 100.0) -> tuple[Event, ...]:
-    """Combine the spans that belong to the same call in different processes."""
+    """Pass the spans of several processes to match_events(), and return the resulting events."""
     found = [NodeRecord(f"/n{number}", number, spans) for number, spans in enumerate(records)]
     return match_events(found, start, end)
 
 
 def keys(found: tuple[Event, ...]) -> list[tuple[str, str]]:
-    """Return the kind and the key of each event."""
+    """Return the kind and the key (such as "call 2") of each event."""
     return [(event.kind, event.key) for event in found]
 
 
 def call(number: int, start: float, end: float) -> list[SpanData]:
-    """Return the spans that the caller records for a call."""
+    """Return the spans that the calling process records for one call."""
     return [
         span("request", start, start + 0.1, call=number),
         span("wait", start + 0.1, end, call=number),
@@ -81,7 +81,7 @@ def test_another_service_on_the_same_ports() -> None:
 
 
 def test_a_port_that_was_used_again() -> None:
-    """If two calls have the same ports and the same call number, no handler is assigned to these calls."""
+    """If two calls have the same ports and call number, a handler is not assigned to either of them."""
     twice = events([*call(1, 1, 3), *call(2, 11, 13)], [span("handler", 2, 2.5), span("handler", 12, 12.5)])
     assert [key for kind, key in keys(twice) if kind == "handler"] == ["call 2", "call 4"]
     assert [key for kind, key in keys(twice) if kind == "request"] == ["call 1", "call 3"]
@@ -120,7 +120,7 @@ def test_a_callback_of_an_unknown_message() -> None:
 
 
 def test_events_outside_of_the_recording() -> None:
-    """Events before and after the recording are left out.
+    """Events that lie before or after the recorded time are left out.
 
     If an event has not ended when the recording ends, its end is None.
     """
@@ -136,7 +136,7 @@ def test_threads_of_one_name() -> None:
 
 
 def test_a_message_that_was_dropped() -> None:
-    """If a message was sent only to some connections, the message has a note."""
+    """If a message was not sent to all connections, the event of the message has a note."""
     (lost,) = events([span("publish", 1, 2, connections=2)])
     assert "sent to 1 of 2" in lost.note
     (going,) = events([span("publish", 1, None, connections=2)])

@@ -23,14 +23,14 @@ def test_the_number_of_stored_spans_is_bounded() -> None:
 
 
 def test_a_memory_that_is_not_full_is_complete() -> None:
-    """If the recorder has deleted no span, its record is complete."""
+    """As long as the recorder has deleted no span, its record is complete."""
     recorder = Recorder(size=3)
     recorder.end(recorder.begin("publish", "/x", "", []))
     assert recorder.since(0.0)["complete_from"] == 0.0
 
 
 def test_an_end_counts_once() -> None:
-    """A second end() does not change a span."""
+    """If end() is called a second time for a span, the span does not change."""
     recorder = Recorder()
     span = recorder.begin("handler", "/x", "/caller", [])
     recorder.end(span, "the first")
@@ -83,7 +83,7 @@ def test_calls_are_counted_by_caller() -> None:
 
 
 def test_the_caller_with_the_oldest_call_is_forgotten() -> None:
-    """The counter stores a limited number of callers, and never deletes a waiting caller."""
+    """The recorder stores a limited number of callers, but never deletes a caller that is waiting."""
     counter = CallCounter()
     counter.begin("/x", "/waiting")
     for number in range(CALLERS + 10):
@@ -102,7 +102,7 @@ class _Owner:
 
 
 def test_a_hook_fits_only_the_expected_method() -> None:
-    """A hook is refused if the method is missing or has other parameters."""
+    """fits() returns False if the method or an attribute is missing, or if the parameters differ."""
     assert Hook(_Owner, "method", ("self", "one"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "two"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "one"), lambda method: method, uses=["elsewhere"]).fits()
@@ -110,7 +110,7 @@ def test_a_hook_fits_only_the_expected_method() -> None:
 
 
 def test_a_hook_is_installed_once() -> None:
-    """A second install() has no effect."""
+    """A second install() of the same hook has no effect."""
 
     class Owner(_Owner):
         pass

@@ -53,7 +53,7 @@ def recorded(asker: Kernel, cell: str) -> Recording:
 
 
 def kinds(recording: Recording, key: str) -> list[str]:
-    """Return the kinds of the events with this key, in the order of their start times."""
+    """Return the kinds of the events with the key `key`, in the order of their start times."""
     return [event.kind for event in recording.parts(key)]
 
 
@@ -150,7 +150,7 @@ def test_a_service_that_does_not_exist(asker: Kernel) -> None:
 
 
 def test_a_caller_that_gave_up(asker: Kernel) -> None:
-    """After a timeout, the caller's wait ends with an error, and the handler's event has no end time."""
+    """After a timeout, the caller has an event "error", and the handler's event has no end time."""
     recording = recorded(
         asker,
         """
@@ -195,7 +195,7 @@ def test_unfinished_events_are_open(asker: Kernel) -> None:
 
 
 def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
-    """When a client process exits, the recording receives the client's events."""
+    """When a client process exits, the client's events are sent to the recording."""
     recording = recorded(
         asker,
         """
@@ -216,7 +216,7 @@ def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
 
 
 def test_a_kernel_that_leaves_during_the_recording(asker: Kernel) -> None:
-    """When another notebook calls leave(), the recording receives the events of its node."""
+    """When the kernel of another notebook calls leave(), the events of its node are sent to the recording."""
     with Kernel() as other:
         other.run("from std_srvs.srv import Trigger; from course_pkg.ros import join; node = join('other')")
         asker.run("""
@@ -242,7 +242,7 @@ def test_a_server_that_died(asker: Kernel) -> None:
             called("/dying", Trigger)
     """,
     )
-    # The recorded reason depends on the order in which the sockets close, so the test does not check it.
+    # The recorded error depends on the order in which the sockets close, so the test does not check its text.
     assert [*recording.unrecorded] == ["/dying_server"]
     assert kinds(recording, "call 1") == ["lookup", "connect", "request", "wait", "error"]
 
@@ -329,7 +329,7 @@ def test_dropped_messages_are_not_matched(asker: Kernel, outgoing: int, incoming
 
 
 def test_a_message_without_a_subscriber(asker: Kernel) -> None:
-    """The note of a message says that no subscriber was connected."""
+    """If a message has no subscriber, its note says that no subscriber was connected."""
     recording = recorded(
         asker,
         """
@@ -342,7 +342,7 @@ def test_a_message_without_a_subscriber(asker: Kernel) -> None:
 
 
 def test_a_latched_message_is_sent_again(asker: Kernel) -> None:
-    """The callback of a new subscriber is assigned to the latched message."""
+    """The callback of a new subscriber is assigned to the latched message that it received."""
     recording = recorded(
         asker,
         """

@@ -49,7 +49,7 @@ def echo() -> Iterator[int]:
 
 
 def relay_threads() -> list[str]:
-    """Return the names of the relays' running threads."""
+    """Return the names of the functions that the relays' threads are running."""
     targets = (getattr(thread, "_target", None) for thread in threading.enumerate())
     return [target.__qualname__ for target in targets if target is not None and "relay" in target.__module__]
 
