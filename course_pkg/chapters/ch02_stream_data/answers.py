@@ -175,6 +175,9 @@ replace("    return", """    def speak():
 
     threading.Thread(target=speak, daemon=True).start()
     return""")
+# %% 02.2 wrong: publishes 0.1 s too late | hint: Your messages are late.
+based_on("publishes too late")
+replace("0.4", "0.1")
 # %% 02.2 wrong: publishes each message twice | hint: Some messages were published more
 replace("publisher.publish(image)", "publisher.publish(image)\n        publisher.publish(image)")
 # %% 02.2 wrong: changes the received message | hint: Your callback changed the received
@@ -438,6 +441,9 @@ replace("self.last = None", "self.heard = False")
 replace("self.last = time.monotonic()", "self.heard = True")
 replace("self.last is None", "not self.heard")
 replace("time.monotonic() - self.last <= 1.0", "self.subscriber.get_num_connections()")
+# %% 02.5 wrong: a pause in state() | hint: Do not wait for a
+replace("if self.last is None", "now = time.monotonic()\n        time.sleep(0.3)\n        if self.last is None")
+replace("time.monotonic() - self.last", "now - self.last")
 # %% 02.5 wrong: waits for a message in state() | hint: Do not wait for a
 replace("self.last = None\n        self.subscriber = rospy.Subscriber(topic, UInt32, self.hear)", """self.topic = topic
         self.heard = False""")

@@ -68,7 +68,10 @@ LATCHED = "Send the last value to every node that subscribes later."
 )
 def count_aloud(context: CheckContext) -> None:
     """Run the student's function at two different rates, and then on a topic without a subscriber."""
-    for hertz, count in ((context.random.integer(15, 25), 16), (context.random.integer(40, 60), 30)):
+    for hertz, count in (
+        (context.random.integer(15, 25), context.random.integer(16, 20)),
+        (context.random.integer(40, 60), 30),
+    ):
         topic = f"/{context.random.word()}"
         subscription = context.subscribe(topic, "std_msgs/UInt32")
         counted = context.run("count_aloud", topic, hertz, count, within=6.0, hints=_slow(hertz))
@@ -97,7 +100,7 @@ def count_aloud(context: CheckContext) -> None:
 def _counts_alone(context: CheckContext, topic: str) -> None:
     """Start the student's function without a subscriber; subscribe when the function must already publish."""
     late: list[Subscription] = []
-    hertz = context.random.integer(9, 14)
+    hertz = context.random.integer(15, 25)
     count = round(hertz * context.random.number(1.05, 1.15))
 
     def come() -> None:

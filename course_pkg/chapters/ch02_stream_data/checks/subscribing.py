@@ -391,13 +391,13 @@ def _of_another_length(values: Sequence[float]) -> Callable[[Sequence[float]], b
 
 def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[Arrival]) -> None:
     delays = [arrival.at - at for at, arrival in zip(sent, arrivals, strict=False)]
-    # On a busy machine, many messages are late, but some messages arrive in time.
-    median, fast = statistics.median(delays), sorted(delays)[len(delays) // 8]
+    # On a busy machine, many messages are late, but at least one message arrives in time.
+    median, fast = statistics.median(delays), min(delays)
     context.require(
         "each message is mirrored without delay",
-        holds=median < 0.15 and fast < at_this_load(0.05),
+        holds=median < 0.15 and fast < 0.08,
         expected="a mirrored message a few milliseconds after the original",
-        actual=f"a delay of more than {median:.2f} s for half of the mirrored messages",
+        actual=f"at least {fast:.2f} s for each message, and {median:.2f} s for half of the messages",
         hints="Your messages are late. Publish in the callback, and do not wait in the callback.",
     )
 
