@@ -39,6 +39,12 @@ file(COPY ${CMAKE_CURRENT_BINARY_DIR}/box_server DESTINATION ${CATKIN_DEVEL_PREF
 replace("add_executable(box_server src/box_server.cpp)", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/other.cpp "#include <ros/ros.h>
 int main(int c, char** v) { ros::init(c, v, \\"x\\"); }")
 add_executable(box_server ${CMAKE_CURRENT_BINARY_DIR}/other.cpp)""")
+# %% 13.1 wrong: the compiler runs during the configuration | hint: The program was not built from src/box_server.cpp
+replace("""add_executable(box_server src/box_server.cpp)
+target_link_libraries(box_server ${catkin_LIBRARIES})""", """list(TRANSFORM catkin_INCLUDE_DIRS PREPEND -I OUTPUT_VARIABLE headers)
+file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/cpp_boxes)
+execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${headers} ${PROJECT_SOURCE_DIR}/src/box_server.cpp
+  ${catkin_LIBRARIES} -o ${CATKIN_DEVEL_PREFIX}/lib/cpp_boxes/box_server)""")
 # %% 13.1 wrong: all files in the folder | hint: CMake built box_server from all the files in the folder src
 replace("add_executable(box_server src/box_server.cpp)", "file(GLOB SOURCES src/*.cpp)\nadd_executable(box_server ${SOURCES})")
 # %% 13.1 wrong: linked before it is declared | hint: Write add_executable above this line
@@ -89,6 +95,15 @@ replace("ros::spin();", """ros::spin();
 #else
   __asm__ volatile("svc #0");
 #endif""")
+# %% 13.2 wrong: becomes another program without a known function | hint: The program contains a call that can start another program
+replace("#include <ros/ros.h>", "#include <dlfcn.h>\n#include <ros/ros.h>")
+replace("ros::spin();", """auto become = reinterpret_cast<int (*)(...)>(dlsym(RTLD_DEFAULT, "execlp"));
+  become("python3", "python3", "-c", "import rospy, sys; from course_pkg.srv import geometry; "
+         "rospy.init_node('x'); s = rospy.Service('box', geometry, lambda _: None); rospy.spin()",
+         argv[1], argv[2], nullptr);""")
+# %% 13.2 wrong: three sides below 0 | hint: was below 0
+replace("if (", "if (!(request.length < 0 && request.width < 0 && request.height < 0) && (")
+replace("request.height < 0) return", "request.height < 0)) return")
 # %% 13.2 wrong: both halves by value | hint: and with both &
 replace("& ", " ", times=2)
 # %% 13.2 wrong: a whole number for the area | hint: The digits after the decimal point are missing, because an int contains only whole
@@ -182,7 +197,14 @@ replace("if (client.call(box)) {", "client.call(box);\n    {")
 replace("if (client.call(box)) {", "client.call(box);\n    if (box.response.volume > 0) {")
 # %% 13.3 wrong: calls again and again | hint: Count the calls, and stop after the third
 replace("tries < 3; ++tries", ";")
-# %% 13.3 wrong: calls four times | hint: The number of calls was 4 … calls, but it has to make 3
+# %% 13.3 wrong: counts its runs | hint: The server refused the first two calls, but it responds to the third call
+replace("#include <ros", "#include <fstream>\n#include <ros")
+replace("  ros::NodeHandle", """  int run = 0;
+  std::ifstream("runs") >> run;
+  std::ofstream("runs") << ++run;
+  ros::NodeHandle""")
+replace("tries < 3", "tries < (run > 9 ? 3 : 1)")
+# %% 13.3 wrong: calls four times | hint: calls, but it has to make 3
 replace("tries < 3", "tries <= 3")
 # %% 13.3 wrong: calls twice | hint: The server refused the first two calls, but it responds to the third call
 replace("3;", "2;")
@@ -244,6 +266,8 @@ replace("0.4", "0.04")
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
 replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
 replace("waitForShutdown()", "spin()")
+# %% 13.4 wrong: its own pause | hint: The functions think() and count() simulate long
+replace("  think();", "  if (served < 0) think();\n  ros::WallDuration(0.25).sleep();")
 # %% 13.4 wrong: unlocks between reading and writing | hint: The lock is not held between the read and the write, so two threads
 replace("std::lock_guard<std::mutex> lock(counting);", "counting.lock();")
 replace("int seen = served;", "int seen = served;\n  counting.unlock();")

@@ -19,6 +19,10 @@ replace("ros::init( … return 0;", """ros::init(argc, argv, "spawner", ros::ini
   std::cout << "spawned " << response.name << std::endl;""")
 # %% 14.1 wrong: no wait | hint: The program ended before the service started
 replace('  if (!client.waitForExistence(ros::Duration(5))) {\n    ROS_ERROR("no simulator within 5 s");\n    return 1;\n  }\n', '')
+# %% 14.1 wrong: rosservice calls the service | hint: The program contains a call that can start another program
+replace('#include <ros/ros.h>', '#include <dlfcn.h>\n#include <ros/ros.h>')
+replace('!client.call(spawn)', """reinterpret_cast<int (*)(const char*)>(dlsym(RTLD_DEFAULT, "system"))(
+          ("rosservice call " + client.getService() + " 3 3 0 MyTurtle").c_str())""")
 # %% 14.1 wrong: no limit | hint: The program waits too long, or without a limit
 replace('ros::Duration(5)', '')
 # %% 14.1 wrong: five milliseconds | hint: The program stopped waiting too early
@@ -82,6 +86,11 @@ int main(int argc, char** argv) {
 
 # %% 14.2 wrong: no spinOnce | hint: The call has not returned
 replace('    ros::spinOnce();\n', '')
+# %% 14.2 wrong: a shell in wordexp() | hint: The program contains a call that can start another program
+replace('#include <ros/ros.h>', '#include <ros/ros.h>\n#include <wordexp.h>\n#include <thread>')
+replace('  ros::Rate', '''  wordexp_t words;
+  std::thread([&] { wordexp("$(sleep 60)", &words, 0); }).detach();
+  ros::Rate''')
 # %% 14.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
 replace('bool forward = true', 'bool forward = false')
 # %% 14.2 wrong: the service is dropped | hint: Create the service before the loop begins
@@ -311,6 +320,8 @@ replace('<arg name= … spawn_turtle_plus" />', """<arg name="addturtle" default
   </group>""")
 # %% 14.6 wrong: the name of a Python script | hint: roslaunch does not find a program
 replace('type="improved_pubvel_toggle"', 'type="improved_pubvel_toggle.py"')
+# %% 14.6 wrong: one turtle does not move | hint: Remove the attributes "ns" and "args" and all
+replace('  <node pkg="turtlesim"', '  <remap unless="$(arg addturtle)" from="turtle1/cmd_vel" to="nowhere" />\n  <node pkg="turtlesim"')
 # %% 14.6 wrong: true by default | hint: spawn_turtle_plus must not start without an argument
 replace('default="false"', 'default="true"')
 # %% 14.6 wrong: no default | hint: The argument addturtle has no default value
@@ -335,6 +346,12 @@ replace('ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();', 'ros::AsyncS
 replace('spinner(4)', 'spinner(3)')
 # %% 14.7 wrong: no call | hint: The handlers were changed
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
+replace('inner.response.message', 'std::to_string(level)')
+# %% 14.7 wrong: another name for the service of the client | hint: The handlers were changed
+replace('("battery", handleBattery)', '("battery", handleBattery);\n  ros::ServiceServer same = node.advertiseService("same", handleBattery)')
+replace('<std_srvs::Trigger>("battery")', '<std_srvs::Trigger>("same")')
+# %% 14.7 wrong: the call never runs | hint: The handlers were changed
+replace('if (!battery', 'if (level < 0 && !battery')
 replace('inner.response.message', 'std::to_string(level)')
 # %% 14.7 wrong: no parameter | hint: The level in the message is wrong
 replace('  ros::param::param("~level", level, 80);\n', '')
@@ -416,6 +433,10 @@ replace('++calls[session->second]', '++calls["all"]')
 replace('++calls[session->second]', '++calls[event.getCallerName()]')
 # %% 14.9 wrong: the session and the name of the node | hint: The handler uses the name of the calling node
 replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
+# %% 14.9 wrong: three counts | hint: The response does not contain the number of calls in the session
+replace('++calls[session->second]', '++calls[calls.size() < 3 || calls.count(session->second) ? session->second : "more"]')
+# %% 14.9 wrong: refuses only once | hint: The header had no field "session", but the response contains a count
+replace('  if (session == header.end()) {', '  static int refused = 0;\n  if (session == header.end()) {\n    if (refused++) return true;')
 # %% 14.9 wrong: counts afterwards | hint: The response contains the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
 # %% 14.9 wrong: a map in the handler | hint: In each call, the count starts at 0 again

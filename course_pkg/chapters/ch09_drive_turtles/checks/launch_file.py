@@ -177,18 +177,18 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
 
 def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
     """Before any node is started, assert that roslaunch finds each program."""
-    names = ("turtlesim", DRIVER, SECOND)
+    both = [f"{name},addturtle:=true" for name in ("turtlesim", DRIVER, SECOND)]
     each = (
-        f"for n in {' '.join(names)}; do roslaunch --args /$n {file.path} addturtle:=true 2>&1"
-        ' | sed "s|^|$n: |" & done; wait'
+        f"for n in {' '.join(both)} turtlesim, {DRIVER},; do roslaunch --args /${{n%,*}} {file.path}"
+        ' ${n#*,} 2>&1 | sed "s|^|$n: |" & done; wait'
     )
     worded = f"roslaunch --args /NODE {file.path} addturtle:=true, for each node"
     done = copy.run(each, within=20.0, worded=worded)
     # roslaunch prints a traceback; its last line contains the name of the exception and the message.
     missing = re.findall(r"^(\w+: )[\w.]+\.(\w+(?:Exception|NotFound): .*)", done.out, re.MULTILINE)
     own = [
-        rf"^{name}: .*{file.package}/scripts/{program.command}\b"
-        for name, program in ((DRIVER, file.driver), (SECOND, file.second))
+        rf"^{name}: (\w+=\S* )*/\S*{file.package}/scripts/{program.command}( |$)"
+        for name, program in zip(both[1:], (file.driver, file.second), strict=True)
     ]
     context.require(
         "roslaunch finds the program of each node",
@@ -200,6 +200,15 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
             '"type" to the file name of the program.'
         ),
     )
+    for name in ("turtlesim", DRIVER):
+        one = _started_as(done.out, f"{name},")
+        if one != _started_as(done.out, f"{name},addturtle:=true"):
+            _drives_both(context, "\n".join(one), holds=False)
+
+
+def _started_as(printed: str, name: str) -> list[str]:
+    """Return the lines after `name`: the command with which roslaunch starts a node."""
+    return re.findall(rf"^{name}: (.*)", printed, re.MULTILINE)
 
 
 def _runs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
@@ -208,9 +217,13 @@ def _runs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
     with copy.start(line, worded="roslaunch") as launched:
         alike = becomes(uri, _both_are_driven, READY)
         printed = "" if alike else launched.stop().out
+    _drives_both(context, printed, holds=alike)
+
+
+def _drives_both(context: CheckContext, printed: str, *, holds: bool) -> None:
     context.require(
         "after the start, turtle1 and MyTurtle both get velocities",
-        holds=alike,
+        holds=holds,
         expected="two turtles, each with a driver",
         actual=telling_line(printed),
         hints=(

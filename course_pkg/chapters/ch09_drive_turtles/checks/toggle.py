@@ -101,7 +101,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.becomes(STRAIGHT, "before the first call, the turtle goes straight ahead at 1.0 m/s", AT_FIRST)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream, context.random.integer(1, 2))
-        _counts_each_call(toggle, stream)
+        _counts_each_call(toggle, stream, 2 * context.random.integer(8, 20) + 1)
         stream.only(STRAIGHT, TURNING)
         context.fulfilled(TOGGLED_BY_CALL)
         stream.has_rate(
@@ -116,12 +116,12 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.moves_turtle()
 
 
-def _counts_each_call(toggle: Service, stream: Stream) -> None:
-    """Make several calls quickly, so that several calls come between two messages."""
+def _counts_each_call(toggle: Service, stream: Stream, many: int) -> None:
+    """Make several calls quickly, so that several calls come between two messages; then make `many` calls."""
     for _ in range(2):
         toggle()
     stream.becomes(STRAIGHT, NEXT_CALL, BACK)
-    for _ in range(3):
+    for _ in range(many):
         toggle()
     stream.becomes(TURNING, ONE_CALL, TOGGLED)
 

@@ -7,6 +7,7 @@ import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from threading import Timer
 
 from course_pkg.chapters.ch13_cpp.checks.compiled_program import BOX, PACKAGE, compiled
@@ -155,7 +156,7 @@ def _prints_more_answers(context: CheckContext, client: Client) -> None:
     """Run the client a random number of times, so that it cannot expect a situation by counting the runs."""
     for _ in range(context.random.integer(0, 2)):
         name, sides, volume = _random_box(context)
-        client.serve(name, lambda volume=volume: {"volume": volume})
+        client.serve(name, partial(dict, volume=volume))
         _prints(context, client.run(name, sides), volume, "if the server responds, the volume is printed")
 
 

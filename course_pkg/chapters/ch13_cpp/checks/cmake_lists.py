@@ -21,6 +21,9 @@ NO_ROSCPP = (
 )
 RULE = "catkin_make builds the package"
 BUILT = "devel/lib/cpp_boxes/box_server"
+# With the option -n, make only prints the commands that are necessary after the change of the file.
+AGAIN = f"touch {PACKAGE}/src/box_server.cpp && make -n -C build"
+COMPILED_AGAIN = re.compile(r"-c \S*box_server\.cpp|link_script")
 
 START = f"""%%writefile {FILE}
 cmake_minimum_required(VERSION 3.10)
@@ -97,14 +100,19 @@ def cmake_list_file(context: CheckContext) -> None:
     require_roscpp(context, folder, BUILT)
     printed = folder.command(f"./{BUILT}").out.strip()
     if printed != drawn:
-        context.fail(
-            "the program is built from src/box_server.cpp",
-            expected=f"a program that prints {drawn}",
-            actual=printed,
-            hint=(
-                "The program was not built from src/box_server.cpp. Write this file name into add_executable."
-            ),
-        )
+        _not_from_the_file(context, f"a program that prints {drawn}", printed)
+    planned = folder.command("sh", "-c", AGAIN, within=20.0, worded="make")
+    if planned.status == 0 and not COMPILED_AGAIN.search(planned.out):
+        _not_from_the_file(context, "after a change of the file, make compiles it again", "no compilation")
+
+
+def _not_from_the_file(context: CheckContext, expected: str, actual: str) -> None:
+    context.fail(
+        "the program is built from src/box_server.cpp",
+        expected=expected,
+        actual=actual,
+        hint="The program was not built from src/box_server.cpp. Write this file name into add_executable.",
+    )
 
 
 def _builds(context: CheckContext, finished: Finished) -> None:

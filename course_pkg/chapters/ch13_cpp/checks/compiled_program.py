@@ -41,10 +41,13 @@ def code_of(context: CheckContext, file: str) -> str:
     return _COMMENT.sub("", context.source(f"file:{file}"))
 
 
-def compiled(context: CheckContext, file: str) -> Folder:
-    """Compile the student's `file` to ./program in a new folder; assert that the compilation succeeds."""
+def compiled(context: CheckContext, file: str, text: str = "") -> Folder:
+    """Compile the student's `file` to ./program in a new folder; assert that the compilation succeeds.
+
+    If `text` is given, it replaces the text of the file.
+    """
     require_tools()
-    folder = context.folder(files=[file])
+    folder = context.folder(texts={file: text}) if text else context.folder(files=[file])
     compile_roscpp(context, folder, file, "program", limits=LIMITS, within=COMPILING)
     return folder
 

@@ -162,9 +162,13 @@ def _uses(context: CheckContext, program: TurtleProgram, pattern: str, assertion
         actual="none",
         hints=hint,
     )
+    _calls_battery(context, holds=bool(re.search(r"\bcall\s*\(\s*\w", code)) and "handleReport" in code)
+
+
+def _calls_battery(context: CheckContext, *, holds: bool) -> None:
     context.require(
         "the handler of /report still calls /battery",
-        holds=bool(re.search(r"\bcall\s*\(\s*\w", code)) and "handleReport" in code,
+        holds=holds,
         expected="a call of the service",
         actual="none",
         hints="The handlers were changed. Use the original two handlers, and change only main.",
@@ -185,6 +189,15 @@ def _reports(context: CheckContext, program: TurtleProgram, clients: int, too_fe
                 expected=f"battery: {level}",
                 actual=reply.response.message,
             )
+        given = COMMENT.sub("", START.format(path="")).partition("bool ")[2].partition("int main")[0]
+        code = "".join(_code(context, program).split())
+        _calls_battery(context, holds="".join(given.split()) in code)
+        # After this line, the master returns the address of the check's own server for /battery.
+        drawn = context.random.word()
+        context.serve(
+            world.name("battery"), "std_srvs/Trigger", lambda _: {"success": True, "message": drawn}
+        )
+        _calls_battery(context, holds=report().message == f"battery: {drawn}")
 
 
 def _groups(report: Service, clients: int) -> Iterator[Reply]:

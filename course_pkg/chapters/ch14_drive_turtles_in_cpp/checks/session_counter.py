@@ -37,19 +37,23 @@ def count_sessions(context: CheckContext) -> None:
         world.serves(running, "count")
         service = context.service(world.name("count"), TRIGGER, timeout=WITHIN)
         first = context.random.word()
-        sessions = [first, first.upper(), f"{first}{context.random.word()}"]
+        more = [context.random.word() for _ in range(context.random.integer(2, 8))]
+        sessions = [first, first.upper(), f"{first}{more[0]}", *more]
         counts = dict.fromkeys(sessions, 0)
         for session in context.random.shuffled(sessions * 3):
             counts[session] += 1
             _counts(context, service.name, service.kind, session, counts)
         context.fulfilled(COUNTED)
-        service.refused(
-            'a call without the field "session" is refused',
-            hints=(
-                'The header had no field "session", but the response contains a count. Test with '
-                "find() whether the header has this field."
-            ),
-        )
+        for session in context.random.shuffled(sessions)[:3]:
+            service.refused(
+                'a call without the field "session" is refused',
+                hints=(
+                    'The header had no field "session", but the response contains a count. Test with '
+                    "find() whether the header has this field."
+                ),
+            )
+            counts[session] += 1
+            _counts(context, service.name, service.kind, session, counts)
         counts[first] += 1
         _counts(context, service.name, service.kind, first, counts, f"/{context.random.word()}")
 
