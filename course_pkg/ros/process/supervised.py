@@ -20,7 +20,6 @@ from pathlib import Path
 from typing import IO
 
 from course_pkg.errors import GraphError
-from course_pkg.ros.process.supervisor import descendants
 
 PROGRAM = Path(__file__).with_name("supervisor.py")
 # A program that loads this library executes Python code in its own process.
@@ -107,9 +106,12 @@ class SupervisedProcess:
         A loaded library of an interpreter (libpython) is also in the result; its sum is an empty string. The
         result is empty if the kernel does not report the executed files, for example in an emulator.
         """
-        with suppress(OSError):
+        import psutil  # This import takes 15 ms, and most programs do not need it.
+
+        with suppress(OSError, psutil.Error):
             if os.path.samefile(f"/proc/{self._process.pid}/exe", sys.executable):
-                return {each for pid in descendants(self._process.pid) for each in _executed(pid)}
+                processes = psutil.Process(self._process.pid).children(recursive=True)
+                return {each for process in processes for each in _executed(process.pid)}
         return set()
 
     def end(self, grace: float = 2.0) -> None:
