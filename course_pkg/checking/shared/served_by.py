@@ -23,12 +23,18 @@ def require_served_by_program(context: CheckContext, program: Running, *services
     seen = context.look()
     for name in services:
         service = seen.service(name)
-        if service is None or not program.listens_at(service.uri):
-            node = service.node if service else "that is not registered any more"
+        if service is None:
+            context.fail(
+                "the program itself serves its services",
+                expected=f"{name} in the list of services",
+                actual=f"no {name}",
+                hint="The service does not exist any more. Offer the service until the program ends.",
+            )
+        if not program.listens_at(service.uri):
             context.fail(
                 "the program itself serves its services",
                 expected="a server in the process of the program",
-                actual=f"{name} is served by the node {node}, in another process",
+                actual=f"{name} is served by the node {service.node} in another process",
                 hint=(
                     "Another process provides the service with the name in the exercise. Create "
                     "this service in your program."

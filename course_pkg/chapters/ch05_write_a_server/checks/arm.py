@@ -125,7 +125,7 @@ def _works(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, maintenance: Service, moves: int) -> None:
-    """Close and open /move_arm in a random order, and call it when it is open."""
+    """Close and open /move_arm in a random order, and call it when it is open; at the end, it is open."""
     closed = False
     for _ in range(context.random.integer(5, 8)):
         data = context.random.choice([True, False])
@@ -134,6 +134,7 @@ def _in_a_random_order(context: CheckContext, maintenance: Service, moves: int) 
         if not closed:
             moves += 1
             _counts(context, [context.service(MOVE, "std_srvs/Trigger")().message], moves)
+    _switches(context, maintenance(data=False), closed=False, changed=closed)
 
 
 def _counts(context: CheckContext, messages: list[str], first: int) -> None:
