@@ -251,7 +251,7 @@ def _graded(
             todo.setdefault((key, regrade.parts(submission)), []).append(submission)
     if kept := len(found) - sum(map(len, todo.values())):
         progress.advance(kept, kept=True)
-        progress.note(f"{kept} of {len(found)} notebooks are graded from an earlier run.")
+        progress.note(f"The grades of {kept} of {len(found)} notebooks come from an earlier run.")
     jobs = options.jobs or (0 if options.scheduler else A_CORE * (os.cpu_count() or 1))
     private = str(options.private.resolve()) if options.private else ""
     tasks = [

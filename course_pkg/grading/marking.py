@@ -170,7 +170,7 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
     part, report = planned.part, result.report
     if report is None:
         verdict = Verdict.UNDECIDED if result.lost else Verdict.FAILED
-        note = f"No points: {result.ending}."
+        note = f"There are no points, because {result.ending}."
         return Report(part.check, verdict, part.goal, 0, part.points, note=note)
     if report.verdict is Verdict.PASSED:
         return report

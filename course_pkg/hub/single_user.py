@@ -67,7 +67,7 @@ def pull(repository: str, folder: Path) -> None:
         done = subprocess.run(command, env=environment, timeout=PULL_TIMEOUT, check=False)
         failure = f"exit status {done.returncode}" if done.returncode else ""
     except subprocess.TimeoutExpired:
-        failure = f"no end within {PULL_TIMEOUT:g} s"
+        failure = f"the command did not end within {PULL_TIMEOUT:g} s"
     if failure:
         sys.stderr.write(f"The released notebooks were not copied to {folder}: {failure}.\n")
 

@@ -90,8 +90,8 @@ class Session:
         if before.rows and not self._overrides.digest:
             self._overrides = before
             raise GradingError(
-                f"The file {before.path} was deleted, or is empty, but it had {len(before.rows)} "
-                "rows. Restore the file, or end this review and start it again without the file."
+                f"The file {before.path} had {len(before.rows)} rows, but now it is empty or does not exist. "
+                "Restore the file, or end this review and start it again without the file."
             )
         return before.digest != self._overrides.digest
 

@@ -207,7 +207,7 @@ def _read(folder: int, name: str, largest: int) -> WorkFile:
             executable = bool(status.st_mode & stat.S_IXUSR)
             modified = min(max(status.st_mtime_ns, 0), LATEST)
             return WorkFile(name, content, modified, status.st_ctime_ns, executable)
-    raise Refused("it was being written; type the command again")
+    raise Refused("another program was writing this file; type the command again")
 
 
 @contextmanager
@@ -250,5 +250,5 @@ def _reason(what: str, error: Exception) -> str:
     if not isinstance(error, OSError):
         return f"{what}: {error}"
     if error.errno in (errno.ELOOP, errno.ENOTDIR):
-        return f"{what}: it is a link or not a folder, and links are not followed"
+        return f"{what}: it is a link, or it is not a folder; links are not followed"
     return f"{what}: it cannot be read ({error.strerror})"
