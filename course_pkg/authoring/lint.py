@@ -29,8 +29,9 @@ def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
         if (exercise or check) and cell["cell_type"] != "code":
             yield cell["id"], "only a code cell can be an exercise or a check"
         if exercise in exercises or check in checks:
-            yield cell["id"], (
-                f"an earlier cell already has the id {exercise or check}; each id must be unique"
+            yield (
+                cell["id"],
+                (f"an earlier cell already has the id {exercise or check}; each id must be unique"),
             )
         if check and check not in exercises:
             yield cell["id"], f"check {check} has no exercise cell above it"
@@ -62,8 +63,9 @@ def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[
             if given.strip() == cell["source"].strip():
                 yield cell["id"], "this exercise contains no answer that can be removed"
             elif given.startswith("%%") and _first(given) != _first(cell["source"]):
-                yield cell["id"], (
-                    f"the check gives students a cell that begins with a different line: {_first(given)}"
+                yield (
+                    cell["id"],
+                    (f"the check gives students a cell that begins with a different line: {_first(given)}"),
                 )
         except AuthoringError as error:
             yield cell["id"], str(error)
@@ -79,7 +81,10 @@ def _errors(notebook: Notebook) -> Iterator[tuple[str, str]]:
         for output in cell["outputs"]:
             if output["output_type"] == "error" and not may_raise(cell):
                 words = f"{output['ename']}: {output['evalue']}"
-                yield cell["id"], (
-                    f"the cell raises {words}; if the cell should raise this error, add the tag "
-                    "raises-exception"
+                yield (
+                    cell["id"],
+                    (
+                        f"the cell raises {words}; if the cell should raise this error, add the tag "
+                        "raises-exception"
+                    ),
                 )

@@ -51,9 +51,9 @@ def _arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--data", type=Path, metavar="DIR", help="the folder for results and tokens")
     parser.add_argument(
-        "--delete", metavar="USER", help=(
-            "delete the results and the token of a student; do not start the service"
-        )
+        "--delete",
+        metavar="USER",
+        help=("delete the results and the token of a student; do not start the service"),
     )
 
 

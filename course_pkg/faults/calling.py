@@ -232,8 +232,7 @@ CALLING: tuple[Fault, ...] = (
         play=running(keeper()),
         visitor=calling("print(move_door())"),
         diagnosis=(
-            "The call omits a field, which therefore has the value False or 0. No error message reports "
-            "this."
+            "The call omits a field, which therefore has the value False or 0. No error message reports this."
         ),
         remedy="In the call, pass a value for each field by its name.",
         reason=(

@@ -22,8 +22,8 @@ STATUSES = """exit status:
        has no points
   130  you stopped the run; type the same command again to continue
 
-The reports also keep the results of submissions that a run does not select. Each run prints the points that have
-changed since the last run, and writes them into changes.csv."""
+The reports also keep the results of submissions that a run does not select. Each run prints the
+points that have changed since the last run, and writes these points into changes.csv."""
 NEEDS = frozenset({"course", "grade", "libraries", "solutions"})
 
 
@@ -89,9 +89,10 @@ def _grade_arguments(parser: ArgumentParser) -> None:
         ),
     )
     parser.add_argument(
-        "--scheduler", default="", metavar="tcp://…", help=(
-            "the address of a dask scheduler, to grade on several machines"
-        )
+        "--scheduler",
+        default="",
+        metavar="tcp://…",
+        help=("the address of a dask scheduler, to grade on several machines"),
     )
     parser.add_argument(
         "--validate",
@@ -156,8 +157,7 @@ def _add_common(parser: ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help=(
-            "a JSON file with the points of parts and of their goals; `course points FILE` writes such a "
-            "file"
+            "a JSON file with the points of parts and of their goals; `course points FILE` writes such a file"
         ),
     )
     parser.add_argument(
@@ -206,9 +206,11 @@ def _points(options: SimpleNamespace) -> int:
 def _points_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("file", type=Path, metavar="FILE", help="the new file, such as points.json")
     parser.add_argument(
-        "--chapters", type=_chapters, default=(), metavar="05,06", help=(
-            "write only the parts of these chapters"
-        )
+        "--chapters",
+        type=_chapters,
+        default=(),
+        metavar="05,06",
+        help=("write only the parts of these chapters"),
     )
 
 
@@ -220,14 +222,16 @@ def _autograde(options: SimpleNamespace) -> int:
 
 def _autograde_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
-        "root", type=Path, nargs="?", default=Path("/autograder"), help=(
-            "the folder that Gradescope provides (default: /autograder)"
-        )
+        "root",
+        type=Path,
+        nargs="?",
+        default=Path("/autograder"),
+        help=("the folder that Gradescope provides (default: /autograder)"),
     )
     parser.add_argument(
-        "--prepare", action="store_true", help=(
-            "do not grade; only make the checks and the solutions unreadable for other users"
-        )
+        "--prepare",
+        action="store_true",
+        help=("do not grade; only make the checks and the solutions unreadable for other users"),
     )
 
 

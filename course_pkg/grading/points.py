@@ -80,7 +80,7 @@ def read_points(path: Path | None) -> PointsTable:
             path,
             (
                 f'the value of {EVERY!r} can only be "{ALL_OR_NOTHING}". To change the points, write a '
-                'number for each part.'
+                "number for each part."
             ),
         )
     worth = {

@@ -43,9 +43,10 @@ def _release_arguments(parser: ArgumentParser) -> None:
     )
     which = parser.add_mutually_exclusive_group()
     which.add_argument(
-        "--path", default="", metavar="NAME", help=(
-            'only the notebooks of a path through the course, such as "The lab session"'
-        )
+        "--path",
+        default="",
+        metavar="NAME",
+        help=('only the notebooks of a path through the course, such as "The lab session"'),
     )
     which.add_argument(
         "--chapters", type=_chapters, default=(), metavar="05,06", help="only the notebooks of these chapters"
@@ -75,9 +76,10 @@ def _collect_arguments(parser: ArgumentParser) -> None:
         help="the course's folder in each home folder, such as ros-course or work/ros-course",
     )
     parser.add_argument(
-        "out", metavar="SUBMISSIONS", type=Path, help=(
-            "the folder for the copied work: a new folder, or a folder that this command wrote earlier"
-        )
+        "out",
+        metavar="SUBMISSIONS",
+        type=Path,
+        help=("the folder for the copied work: a new folder, or a folder that this command wrote earlier"),
     )
     parser.add_argument(
         "--homes",
@@ -96,9 +98,11 @@ def _collect_arguments(parser: ArgumentParser) -> None:
         ),
     )
     parser.add_argument(
-        "--chapters", type=_chapters, default=(), metavar="05,06", help=(
-            "copy only the work for these chapters"
-        )
+        "--chapters",
+        type=_chapters,
+        default=(),
+        metavar="05,06",
+        help=("copy only the work for these chapters"),
     )
 
 
@@ -112,9 +116,11 @@ def _autograder(options: SimpleNamespace) -> int:
 def _autograder_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("out", metavar="OUT.zip", type=Path, help="the name of the new zip file")
     parser.add_argument(
-        "--chapters", type=_chapters, default=(), metavar="05,06", help=(
-            "the chapters of the assignment (default: all)"
-        )
+        "--chapters",
+        type=_chapters,
+        default=(),
+        metavar="05,06",
+        help=("the chapters of the assignment (default: all)"),
     )
     parser.add_argument(
         "--private", type=Path, metavar="DIR", help="a folder with your own private checks and points"

@@ -37,9 +37,9 @@ def _hub_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--port", type=int, help="the port on which the hub listens (default: 8000, or the next free port)"
     )
-    parser.add_argument("--ip", default="127.0.0.1", help=(
-        "the address on which the hub listens (default: 127.0.0.1)"
-    ))
+    parser.add_argument(
+        "--ip", default="127.0.0.1", help=("the address on which the hub listens (default: 127.0.0.1)")
+    )
     parser.add_argument("--cert", type=Path, metavar="FILE", help="the TLS certificate, in PEM format")
     parser.add_argument("--key", type=Path, metavar="FILE", help="the private key of the certificate")
     parser.add_argument("--teacher", default="", metavar="USER", help="a user who administers the hub")
@@ -53,9 +53,11 @@ def _hub_arguments(parser: ArgumentParser) -> None:
         ),
     )
     parser.add_argument(
-        "--memory", type=int, default=1024, metavar="MIB", help=(
-            "the memory limit for each student, in MiB (default: 1024)"
-        )
+        "--memory",
+        type=int,
+        default=1024,
+        metavar="MIB",
+        help=("the memory limit for each student, in MiB (default: 1024)"),
     )
     parser.add_argument(
         "--processes",

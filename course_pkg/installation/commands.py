@@ -20,9 +20,10 @@ def _install(options: SimpleNamespace) -> int:
 
 def _prefix_argument(parser: ArgumentParser) -> None:
     parser.add_argument(
-        "--prefix", type=Path, metavar="DIR", help=(
-            "the installation's folder (default: /opt/ros-services-course)"
-        )
+        "--prefix",
+        type=Path,
+        metavar="DIR",
+        help=("the installation's folder (default: /opt/ros-services-course)"),
     )
 
 
@@ -59,9 +60,9 @@ def _bundle(options: SimpleNamespace) -> int:
 
 
 def _bundle_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("out", metavar="OUT", type=Path, help=(
-        "the folder for the installer; it must be new or empty"
-    ))
+    parser.add_argument(
+        "out", metavar="OUT", type=Path, help=("the folder for the installer; it must be new or empty")
+    )
 
 
 COMMANDS = {

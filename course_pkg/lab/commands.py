@@ -29,9 +29,9 @@ def _lab(options: SimpleNamespace) -> int:
 def _lab_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("notebook", nargs="?", help="the notebook to open (default: the first chapter)")
     parser.add_argument("--no-browser", dest="browser", action="store_false", help="do not open a browser")
-    parser.add_argument("--port", type=int, help=(
-        "the port to listen on (default: 8888, or the next free port)"
-    ))
+    parser.add_argument(
+        "--port", type=int, help=("the port to listen on (default: 8888, or the next free port)")
+    )
     parser.add_argument("--ip", default="127.0.0.1", help="the address to listen on (default: 127.0.0.1)")
     parser.add_argument(
         SHARED,

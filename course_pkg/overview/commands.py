@@ -44,9 +44,9 @@ def _write(path: Path, content: str) -> None:
 def _arguments(parser: ArgumentParser) -> None:
     parser.add_argument("chapter", nargs="?", metavar="CHAPTER", help="show only this chapter, such as 05")
     parser.add_argument("--csv", metavar="FILE", help="write a table of parts and predictions to FILE")
-    parser.add_argument("--html", metavar="FILE", help=(
-        "write a web page to FILE; the page needs no other files"
-    ))
+    parser.add_argument(
+        "--html", metavar="FILE", help=("write a web page to FILE; the page needs no other files")
+    )
 
 
 COMMANDS = {

@@ -203,7 +203,9 @@ class _Diagnosis:
             raise self._broken(line, word.column, problem, "write another name")
         if name in self.names:
             problem = f"{name} is already declared in line {self.names[name]}"
-            raise self._broken(line, word.column, problem, "write another name, or remove one of the two")
+            raise self._broken(
+                line, word.column, problem, ("write another name, or remove one of the two lines")
+            )
         self.names[name] = line.number
 
     def _name_advice(self, line: Line, name: str) -> str:

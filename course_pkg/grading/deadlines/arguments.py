@@ -55,9 +55,10 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         ),
     )
     group.add_argument(
-        "--late", type=Path, metavar="TABLE", help=(
-            "a CSV file with the late days, with the columns student,days or student,chapter,days"
-        )
+        "--late",
+        type=Path,
+        metavar="TABLE",
+        help=("a CSV file with the late days, with the columns student,days or student,chapter,days"),
     )
     group.add_argument(
         "--late-per-day",

@@ -92,11 +92,15 @@ def _parsed(content: bytes) -> dict[str, Plain]:
         why = next((words for prefix, words in PREFIXES.items() if start.startswith(prefix)), "")
         raise GradingError(
             why
-            or ("the file is not a notebook, because it is not JSON; hand in the .ipynb file in which you "
-                "worked")
+            or (
+                "the file is not a notebook, because it is not JSON; hand in the .ipynb file in which you "
+                "worked"
+            )
         ) from error
     if not isinstance(data, dict):
-        raise GradingError("the file is JSON, but it has no cells; hand in the .ipynb file in which you worked")
+        raise GradingError(
+            "the file is JSON, but it has no cells; hand in the .ipynb file in which you worked"
+        )
     return data
 
 

@@ -27,7 +27,7 @@ CASES: tuple[tuple[str, str, str], ...] = (
         "comes 33 ms later; if no picture comes for half a second, the robot stops.",
     ),
     (
-        "A web page shows a picture of the shop, a new one every hour.",
+        "A web page shows a picture of the shop. It shows a new picture every hour.",
         "a service",
         "A picture is large, and the page needs one picture per hour. A topic would carry a "
         "hundred thousand pictures for each picture that the page shows.",
@@ -67,7 +67,7 @@ CASES: tuple[tuple[str, str, str], ...] = (
         "the topic `/rosout` for this purpose.",
     ),
     (
-        "The robot drives to the kitchen, which takes two minutes, and may be called back on its way.",
+        "A robot drives to the kitchen, which takes two minutes. A user can cancel this drive.",
         "an action",
         "With a service, the client would wait for two minutes without progress messages, and "
         "it could not cancel the job. An action has a goal, progress messages and a result, "

@@ -147,7 +147,7 @@ def graph_text(snapshot: Snapshot, *, noise: bool = False) -> str:
             f"  {verb:<10} {key.split(' ', 1)[1]}  ({types[key]})"
             for verb, key in _roles(node.key, shown.lines)
         ]
-        paragraphs.append("\n".join([node.name, *(said or ["  on its own"])]))
+        paragraphs.append("\n".join([node.name, *(said or ["  no topics and no services"])]))
     return "\n".join(paragraphs) or "no nodes"
 
 

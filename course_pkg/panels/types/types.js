@@ -54,7 +54,7 @@ class TypeView {
 
   #drawBanner() {
     const notice = this.model.get("notice");
-    const saved = "No kernel answers: this browser was saved. The list can be searched; to open another type, run the notebook.";
+    const saved = "No kernel answers: this is a saved panel. You can search the list. To open another type, run the notebook.";
     const text = notice ? `The panel itself failed: ${notice}` : this.live ? this.model.get("trouble") : saved;
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", Boolean(text) && this.live);

@@ -57,7 +57,7 @@ class JsonChannel:
                     self._wait_for(select.POLLOUT, deadline)
                     continue
                 except OSError as error:
-                    raise ChannelClosed(f"the other end is gone: {error}") from error
+                    raise ChannelClosed(f"the other end has closed the connection: {error}") from error
                 line = line[sent:]
 
     def receive(self, timeout: float | None = None) -> dict[str, Json]:
@@ -97,7 +97,7 @@ class JsonChannel:
         try:
             chunk = self._socket.recv(CHUNK)
         except OSError as error:
-            raise ChannelClosed(f"the other end is gone: {error}") from error
+            raise ChannelClosed(f"the other end has closed the connection: {error}") from error
         if not chunk:
             raise ChannelClosed("the other end closed the connection")
         return chunk

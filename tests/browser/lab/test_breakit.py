@@ -84,7 +84,7 @@ def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
     picture(form, "breakit-wrong")
     answer(form, named("stale"))
     expect(form.get_by_text("Right.", exact=True)).to_be_visible()
-    expect(form.get_by_text("Taught in chapter 12")).to_be_visible()
+    expect(form.get_by_text("This topic is taught in chapter 12")).to_be_visible()
     expect(form.get_by_text("1 of 3 solved, 0 at the first try")).to_be_visible()
     picture(form, "breakit-right")
 

@@ -100,7 +100,7 @@ def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
 def test_what_is_long_is_folded(page: Page, tmp_path: Path) -> None:
     """For a long field, the view shows only the beginning of the value and its length."""
     wire = show(page, tmp_path, WireView("/nobody"))
-    expect(wire.locator("[aria-current]")).to_contain_text("No node provides it")
+    expect(wire.locator("[aria-current]")).to_contain_text("No node provides the service")
     expect(wire.get_by_text("unavailable")).to_be_visible()
     headers = {"long": "x" * 3000}
     wire = show(page, tmp_path, WireView("/getGeometry", None, headers, **SIDES))
