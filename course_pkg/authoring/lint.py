@@ -50,7 +50,8 @@ def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[
             continue
         points = points_of(cell)
         if points is None:
-            yield cell["id"], f'exercise {exercise} has no points: {{"exercise": "{exercise}", "points": 2}}'
+            example = f'{{"exercise": "{exercise}", "points": 2}}'
+            yield cell["id"], f"exercise {exercise} has no points; write {example} into the cell's metadata"
         if exercise not in parts:
             yield cell["id"], f"no check is declared for {exercise}"
         elif points is not None and points != parts[exercise].points:

@@ -176,7 +176,7 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
         return report
     if report.verdict is Verdict.UNDECIDED:
         # The part counts as failed, because a student's answer can prevent the check from finishing.
-        note = f"No points, because the check could not finish: {report.note}"
+        note = f"There are no points, because the check could not finish: {report.note}"
         return Report(part.check, Verdict.FAILED, part.goal, 0, part.points, note=note, inconclusive=True)
     errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]
     note = " ".join(filter(None, [report.note, *(f"The cell raised {error}" for error in errors[-1:])]))

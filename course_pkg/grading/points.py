@@ -102,7 +102,7 @@ def write_points(path: Path, asked: Sequence[str] = ()) -> None:
     if unknown := sorted(set(asked) - set(chapters())):
         raise GradingError(f"There is no chapter {unknown[0]}. The chapters are {', '.join(chapters())}.")
     if path.exists():
-        raise GradingError(f"{path} exists already. Give another file, or delete the old file first.")
+        raise GradingError(f"{path} already exists. Give another file, or delete the old file first.")
     table = {
         part.check: {goal.text: goal.points for goal in part.goals} or part.points
         for chapter in asked or chapters()

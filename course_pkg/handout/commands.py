@@ -139,8 +139,8 @@ def _autograder_arguments(parser: ArgumentParser) -> None:
         type=float,
         metavar="PERCENT",
         help=(
-            "the percentage of the points that is deducted for each late day. A day counts as soon as "
-            "it has begun"
+            "the percentage of the points that is deducted for each late day. A day that has begun counts "
+            "as a whole day"
         ),
     )
     parser.add_argument(

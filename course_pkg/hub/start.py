@@ -108,8 +108,8 @@ def serve_hub(options: Options) -> int:
         if homes:
             sys.stdout.write("All servers run under your account, so students can read each other's files.\n")
         sys.stdout.write(
-            f"One-time passwords: {table}\nThe hub of {len(students)} students starts at\n\n    "
-            f"{scheme}://{_in_url(reached_at(options.ip))}:{port}\n\nPress Ctrl-C in this terminal to end "
+            f"One-time passwords: {table}\nThe hub for {len(students)} students starts. Its address is\n\n "
+            f"   {scheme}://{_in_url(reached_at(options.ip))}:{port}\n\nPress Ctrl-C in this terminal to end "
             "the hub and all servers.\n"
         )
         sys.stdout.flush()

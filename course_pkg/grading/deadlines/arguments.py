@@ -65,8 +65,8 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         type=float,
         metavar="PERCENT",
         help=(
-            "the percentage of the points that is deducted for each late day, such as 10. A day counts "
-            "as soon as it has begun"
+            "the percentage of the points that is deducted for each late day, such as 10. A day that has "
+            "begun counts as a whole day"
         ),
     )
     group.add_argument(

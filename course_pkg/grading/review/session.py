@@ -127,7 +127,9 @@ class Session:
         reloaded, step = self.refresh(), self._steps[-1]
         if any(self._overrides.rows.get(key) != row for key, row in step.after.items()):
             self._steps.pop()
-            raise ValueError("another program has changed this row since then, so the change was not undone")
+            raise ValueError(
+                "another program has changed this row after your change, so your change was not undone"
+            )
         done = self._change(step.before, undoing=True)
         self._steps.pop()
         shown = self._numbers.get(next(iter(step.before)))

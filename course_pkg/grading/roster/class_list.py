@@ -217,6 +217,6 @@ def _joined(*people: Person | None) -> Person | None:
 
 def _counted(one: str, many: str, names: Sequence[str]) -> Iterator[str]:
     if names:
-        more = f" and {len(names) - SHOWN} more; class.html lists all" if len(names) > SHOWN else ""
+        more = f" and {len(names) - SHOWN} more; class.html contains all names" if len(names) > SHOWN else ""
         told = one if len(names) == 1 else many
         yield f"{len(names)} {told}: {'; '.join(names[:SHOWN])}{more}."

@@ -192,7 +192,7 @@ class NotRegular(Refused):
 def _read(folder: int, name: str, largest: int) -> WorkFile:
     """Read a regular file of at most `largest` bytes; do not open a link, a pipe or a device."""
     if stat.S_ISLNK(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode):
-        raise NotRegular("it is a link, and links are not followed")
+        raise NotRegular("it is a link, and the command does not follow links")
     flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
     for _ in range(TRIES):
         with os.fdopen(os.open(name, flags, dir_fd=folder), "rb") as file:
@@ -250,5 +250,5 @@ def _reason(what: str, error: Exception) -> str:
     if not isinstance(error, OSError):
         return f"{what}: {error}"
     if error.errno in (errno.ELOOP, errno.ENOTDIR):
-        return f"{what}: it is a link, or it is not a folder; links are not followed"
+        return f"{what}: it is a link, or it is not a folder"
     return f"{what}: it cannot be read ({error.strerror})"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-QUESTION = "How would you do it?"
+QUESTION = "Which way of communication fits best?"
 
 OPTIONS = ("a topic", "a service", "an action")
 
@@ -48,7 +48,7 @@ CASES: tuple[tuple[str, str, str], ...] = (
         "stops. A real button also cuts the power.",
     ),
     (
-        "The battery level, for a display, for the log, and for a program that drives to the charger.",
+        "A display, the log, and a program that drives to the charger need the battery level.",
         "a topic",
         "Several nodes need the level, and the publisher does not have to know these nodes. "
         "The level changes slowly, so one latched message in ten seconds is enough. If only "

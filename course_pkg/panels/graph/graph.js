@@ -119,7 +119,7 @@ class GraphView {
   #drawBanner() {
     const notice = this.model.get("notice");
     const trouble = notice ? `The panel itself failed: ${notice}` : this.#get("trouble");
-    const saved = this.recording ? "No kernel answers: this is a recording. Play it, or move the slider." : "No kernel answers: this picture was saved and does not follow the graph.";
+    const saved = this.recording ? "No kernel answers: this is a recording. Play it, or move the slider." : "No kernel answers: this is a saved picture, which does not change when the graph changes.";
     const text = trouble || (this.live || !this.model.get("live") ? "" : saved);
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", Boolean(trouble));

@@ -42,7 +42,7 @@ class TimelineView {
       "aria-label": `${counted(this.scene.count, "event")} of ${counted(recorded.lanes.length, "node")}. ${HINT}` })) this.canvas.setAttribute(name, value);
     this.window = h("div", { class: "ros-window" }, h("div", { class: "ros-top" }, this.drawing.axis), this.canvas, ...this.drawing.probes);
     this.details = h("div", { class: "ros-details", "aria-live": "polite" });
-    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "Events that are too close together are drawn as one band that shows the number of events, and arrows that are too close together are not drawn. Zoom in to see each event." });
+    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "Events that are too close together are drawn as one band, which shows the number of events. Arrows that are too close together are not drawn. Zoom in to see each event." });
     this.body = h("tbody", {});
     this.table = /** @type {HTMLDetailsElement} */ (h("details", { class: "ros-list", ontoggle: () => this.#fillTable() }, h("summary", { text: "The same as a table" }),
       h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Events" }, h("table", {}, h("thead", {}, h("tr", {},
