@@ -68,7 +68,7 @@ def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
     changed = strict.weighed(before)
     assert read_points(None).weighed(changed) == before
     assert worth_changes([before], [changed])[1:] == [
-        "  05.3: its points are divided differently among its goals"
+        "  05.3: the points of this part are now divided differently among its goals"
     ]
     doubled = read_points(_read(tmp_path, '{"05.3": 4}')).weighed(before)
     assert worth_changes([before], [doubled])[1:] == ["  05.3: 2 before, 4 now"]

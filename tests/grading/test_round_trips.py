@@ -189,7 +189,7 @@ def test_a_worksheet_without_a_maximum_grade_and_without_feedback(tmp_path: Path
     first, second = found.summary()
     assert first.startswith("Moodle's worksheet: 1 of 1 participants")
     assert "no maximum grade, so the points are not scaled" in first
-    assert "switch on the feedback type Feedback comments" in second
+    assert "switch on the feedback type *Feedback comments*" in second
 
 
 def test_anonymous_submissions_of_an_instructor_who_sees_names(tmp_path: Path, notebook: bytes) -> None:

@@ -209,7 +209,7 @@ def test_in_plain_sentences() -> None:
 def test_messages_without_a_subscriber() -> None:
     """If no node received a message, the description says whether a subscriber was connected."""
     (sent,) = message(1, 1.0)
-    assert timeline_text(recording(sent)).endswith("no recorded node received it.")
+    assert timeline_text(recording(sent)).endswith("no recorded node received messages.")
     lost = replace(sent, note="no subscriber was connected")
     assert timeline_text(recording(lost)).endswith("no subscriber was connected.")
     assert waits_of(recording(lost, sent))["streams"][0]["alone"] == 1

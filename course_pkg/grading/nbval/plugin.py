@@ -70,7 +70,7 @@ def _lines(reporter: pytest.TerminalReporter) -> list[str]:
     reports = [each for group in reporter.stats.values() for each in group]
     properties = [pair for each in reports for pair in getattr(each, "user_properties", [])]
     missing = {
-        (f"{part} was not examined, because its check is not in the notebook")
+        (f"{part} not examined: its check is not in the notebook")
         for key, part in properties
         if key == MISSING
     }
@@ -107,7 +107,7 @@ def _headline(item: pytest.Item, cell: Cell) -> str:
         text = str(output.get("data", {}).get("text/plain", ""))
         if text.startswith(check_of(cell)):
             return text.splitlines()[0][:200]
-    return f"{check_of(cell)} was not examined"
+    return f"{check_of(cell)} not examined"
 
 
 def _record(cell: Cell, report: pytest.TestReport) -> None:

@@ -107,7 +107,7 @@ def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
     expect(form.get_by_text("Right.", exact=True)).to_be_visible()
     form.get_by_role("button", name="Undo the fault").focus()
     shared.keyboard.press("Enter")
-    expect(form.get_by_text("The fault is removed.")).to_be_visible()
+    expect(form.get_by_text("The fault was removed.")).to_be_visible()
 
 
 def test_a_hanging_call_is_described(form: Locator) -> None:
