@@ -126,7 +126,10 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
                     execution_count=1,
                 )
             ],
-            "cell boom: the cell raises E: v; if the cell should raise this error, add the tag raises-exception",
+            (
+                "cell boom: the cell raises E: v; if the cell should raise this error, "
+                "add the tag raises-exception"
+            ),
         ),
     ],
 )

@@ -177,7 +177,7 @@ def test_no_link_is_followed(homes: Path, place: str) -> None:
     [home] = [each for each in homes_in(homes) if each.student == "anna"]
     files, [problem] = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
     assert files == []
-    assert "it is a link, or it is not a folder" in problem
+    assert "the command does not follow links" in problem
 
 
 def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None:

@@ -250,5 +250,5 @@ def _reason(what: str, error: Exception) -> str:
     if not isinstance(error, OSError):
         return f"{what}: {error}"
     if error.errno in (errno.ELOOP, errno.ENOTDIR):
-        return f"{what}: it is a link, or it is not a folder"
+        return f"{what}: it is a link, or it is not a folder; the command does not follow links"
     return f"{what}: it cannot be read ({error.strerror})"

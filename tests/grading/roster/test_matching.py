@@ -116,7 +116,8 @@ def test_the_summary() -> None:
     ]
     many = tuple(Person(f"N{number}", line=number) for number in range(2, 32))
     assert list(_matched({}, many).summary())[1] == (
-        "30 handed in nothing: N2; N3; N4; N5; N6; N7; N8; N9; N10; N11 and 20 more; class.html contains all names."
+        "30 handed in nothing: N2; N3; N4; N5; N6; N7; N8; N9; N10; N11 and 20 more; "
+        "class.html contains all names."
     )
 
 
