@@ -200,7 +200,7 @@ class GraphActivity:
         if not publishers:
             return "no publisher", [["rate", "no publisher, so there are no messages"]]
         if not subscribers:
-            return "no listener", [["rate", "no subscriber, so nothing is sent"]]
+            return "no subscriber", [["rate", "no subscriber, so nothing is sent"]]
         if self.seen is None:
             return "", []
         carried = self._carried[topic.name]

@@ -164,8 +164,8 @@ def _roles(node: str, lines: Iterable[Line]) -> list[tuple[str, str]]:
 def _topic_facts(kind: str, publishers: list[str], subscribers: list[str]) -> tuple[tuple[str, str], ...]:
     return (
         ("type", kind or "unknown"),
-        ("published by", ", ".join(publishers) or "nobody"),
-        ("subscribed by", ", ".join(subscribers) or "nobody"),
+        ("published by", ", ".join(publishers) or "no node"),
+        ("subscribed by", ", ".join(subscribers) or "no node"),
     )
 
 

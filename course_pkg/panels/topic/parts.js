@@ -16,7 +16,7 @@ export function names(nodes, own, nobody) {
 
 /** @param {any} publisher */
 export function figures({ published, unheard, sent, dropped }) {
-  const facts = { Published: published, "To nobody": unheard, Sent: sent, Dropped: dropped };
+  const facts = { Published: published, "No subscriber": unheard, Sent: sent, Dropped: dropped };
   return h("div", { class: "ros-facts" }, ...Object.entries(facts).map(([label, count]) => h("p", {}, h("span", { class: "ros-muted", text: label }), h("b", { text: count.toLocaleString("en") }))));
 }
 

@@ -153,7 +153,7 @@ class TopicView {
 
   #drawConnections() {
     const { publishers = [], subscribers = [], own = "", warnings = [] } = this.model.get("connections");
-    const said = [names(publishers, own, "nobody"), names(subscribers, own, "nobody")];
+    const said = [names(publishers, own, "no node"), names(subscribers, own, "no node")];
     if (!same(said, this.saidWho)) {
       this.saidWho = said;
       this.who.replaceChildren(...["Published by", "Subscribed by"].flatMap((label, index) => [h("span", { class: "ros-muted", text: label }), h("span", { text: said[index] })]));

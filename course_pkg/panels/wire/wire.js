@@ -22,7 +22,7 @@ class WireView {
   constructor(exchange) {
     this.exchange = exchange;
     const { service, names, steps, outcome, notes } = exchange;
-    this.back = h("button", { type: "button", "aria-label": "The step before", text: "◀", onclick: () => this.#go(this.current - 1) });
+    this.back = h("button", { type: "button", "aria-label": "The previous step", text: "◀", onclick: () => this.#go(this.current - 1) });
     this.next = h("button", { type: "button", "aria-label": "The next step", text: "▶", onclick: () => this.#go(this.current + 1) });
     this.slider = /** @type {HTMLInputElement} */ (h("input", { type: "range", min: 1, max: Math.max(steps.length, 1), value: 1, "aria-label": "Step of the call",
       "data-lm-suppress-shortcuts": "true", oninput: () => this.#go(Number(this.slider.value) - 1) }));

@@ -62,7 +62,7 @@ def test_the_keyboard_reaches_every_step_and_piece(page: Page, tmp_path: Path) -
         expect(wire.locator(":focus")).to_contain_text(title)
     page.keyboard.press("Home")
     expect(wire.locator(".ros-step")).to_contain_text("<methodName>lookupService</methodName>")
-    expect(wire.get_by_label("The step before")).to_be_disabled()
+    expect(wire.get_by_label("The previous step")).to_be_disabled()
     wire.get_by_label("Step of the call").fill("4")
     expect(wire.locator(".ros-step h4")).to_have_text("Connection header of the client")
     wire.locator(".ros-sides tbody tr").first.focus()
