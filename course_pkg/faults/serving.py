@@ -145,8 +145,8 @@ SERVING: tuple[Fault, ...] = (
         ),
         play=running(LOGGERS),
         diagnosis=(
-            "The response has only one field, which is a list. The handler returns this list, but "
-            "not inside another list."
+            "The response has only one field, which is a list. The handler returns this list directly, and "
+            "not a list that contains it."
         ),
         remedy="Put the list into a second list, [[…]], or return a dict with the name of the field.",
         reason=(

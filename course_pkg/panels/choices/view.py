@@ -51,8 +51,8 @@ class Choices(Panel):
     verdicts = List(Dict(), help="whether the choice fits and why, for each case").tag(sync=True)
     first = Dict(
         help=(
-            "the number of first choices that fit, the number of first choices, and whether they are still "
-            "the current choices"
+            "the number of first choices, the number of those that fit, and whether they are still the "
+            "current choices"
         )
     ).tag(sync=True)
 

@@ -45,7 +45,9 @@ class JsonChannel:
         """
         line = memoryview(json.dumps(message).encode() + b"\n")
         if len(line) > self._limit:
-            raise ChannelBroken(f"a message of {len(line)} bytes is longer than {self._limit}")
+            raise ChannelBroken(
+                f"a message of {len(line)} bytes is longer than the limit of {self._limit} bytes"
+            )
         deadline = Deadline(timeout)
         with self._sending:
             while line:
