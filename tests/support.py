@@ -33,7 +33,7 @@ def usual(count: int, cases: Mapping[str, object]) -> list[ParameterSet]:
 
 
 def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval: float = 0.01) -> Result:
-    """Call `condition` repeatedly, and return its first true value. Fail after `timeout` s."""
+    """Call a function repeatedly, and return its first true value. Fail after `timeout` s."""
     deadline = time.monotonic() + timeout
     while not (value := condition()):
         if time.monotonic() > deadline:

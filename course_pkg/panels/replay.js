@@ -61,7 +61,9 @@ export class Replay {
     this.frame = 0;
   }
 
-  /** The clock stops while the recording is not visible, and continues at the same time. @param {boolean} visible */
+  /** The clock stops while the recording is not visible, and then continues from the same time of the
+   * recording.
+   * @param {boolean} visible */
   see(visible) {
     this.visible = visible;
     this.#run();

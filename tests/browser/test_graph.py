@@ -147,7 +147,7 @@ def played(widget: GraphPanel) -> GraphPanel:
 
 
 def seek(graph: Locator, seconds: float) -> None:
-    """Move the slider to `seconds` in the recording."""
+    """Move the slider to a time of the recording (in s)."""
     graph.get_by_label("Moment of the recording").fill(str(round(1000 * seconds)))
 
 

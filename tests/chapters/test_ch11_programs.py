@@ -25,7 +25,7 @@ def server() -> Iterator[NodeProcess]:
 
 
 def added(session: str, amount: int) -> tuple[int, int]:
-    """Add `amount` to a session. Return the session's total and its number of calls."""
+    """Add an amount to a session. Return the session's total and its number of calls."""
     answer = BoundedProxy("/add_up", KIND, headers={"session": session}).call(amount)
     return answer.total, answer.calls
 

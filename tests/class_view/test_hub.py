@@ -73,7 +73,7 @@ def url(tmp_path: Path) -> Iterator[str]:
 
 
 def login(url: str, user: str, state: str = "") -> tuple[int, dict[str, str]]:
-    """Log in at the hub as `user`, and follow the redirect to the class view."""
+    """Log in at the hub as a user, and follow the redirect to the class view."""
     status, _, headers = ask(f"{url}/")
     address = urlsplit(headers["Location"])
     query = parse_qs(address.query)

@@ -56,7 +56,7 @@ def worker() -> Iterator[SandboxWorker]:
 
 
 def graded(worker: SandboxWorker, path: Path, chapter: str = "05") -> Grade:
-    """Return the grade of the notebook at `path`."""
+    """Return the grade of a notebook."""
     submission = Submission("s01", chapter, path.read_bytes(), path.name)
     return mark(submission, plan(chapter), worker.run, "secret", "key", sandboxed=True)
 
@@ -174,7 +174,7 @@ def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
 
 
 def test_what_is_no_notebook_earns_nothing_and_says_why(worker: SandboxWorker, tmp_path: Path) -> None:
-    """For a file that is not a notebook, each part has no points and a note with the reason."""
+    """If a file is not a notebook, its parts get no points, and each part gets a note with the reason."""
     path = tmp_path / "05.ipynb"
     path.write_text("<html>not a notebook</html>")
     grade = graded(worker, path)

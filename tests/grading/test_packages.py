@@ -52,7 +52,7 @@ class Jobs:
 
 
 def graded(root: Path, planned: Plan, run: Jobs | SandboxWorker) -> Grade:
-    """Return the grade of the only submission below `root`."""
+    """Return the grade of the only submission in a folder."""
     [submission] = submissions(root)
     work = run.run if isinstance(run, SandboxWorker) else run
     return mark(submission, planned, work, "secret", "key", sandboxed=True)
@@ -141,7 +141,7 @@ def test_the_solution_as_a_package_earns_full_marks(
 
 
 def only_part(planned: Plan, check: str) -> Plan:
-    """Return a plan that contains only the part `check`."""
+    """Return a plan that contains only one part."""
     return Plan(
         planned.chapter, planned.rebuilder, tuple(each for each in planned.parts if each.part.check == check)
     )

@@ -49,7 +49,7 @@ class Outline(HTMLParser):
         self.tags.append((tag, dict(attrs)))
 
     def handle_endtag(self, tag: str) -> None:
-        """Assert that the last open tag is closed."""
+        """Assert that this end tag closes the last open tag."""
         if not self._open or self._open.pop() != tag:
             self.wrong.append(tag)
 

@@ -51,7 +51,7 @@ def notebook() -> bytes:
 
 
 def _graded(source: Path, lists: Lists, out: Path) -> tuple[list[Grade], ClassList]:
-    """Grade the submissions in `source`. Jane Doe gets 7 of 9 points, and all other students get 9 points."""
+    """Grade all submissions in a folder. Jane Doe gets 7 of 9 points, and all other students get 9 points."""
     found = submissions(source)
     right = [report(check) for check in GOALS if check.startswith("05")]
     wrong = [report("05.1", Verdict.FAILED), *right[1:]]

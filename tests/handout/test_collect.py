@@ -55,7 +55,7 @@ def add_home(homes: Path, student: str, files: dict[str, bytes], course: str = "
 
 
 def give(path: Path, uid: int) -> None:
-    """Change the owner of all files below `path`, if this process has the permission."""
+    """Change the owner of all files in a folder, if this process has the permission."""
     for each in [path, *path.rglob("*")]:
         if ROOT:
             os.chown(each, uid, uid, follow_symlinks=False)
@@ -83,7 +83,7 @@ def times(out: Path) -> list[list[str]]:
 def test_work_is_where_the_grader_looks(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Work is stored in a folder for each student, and students without work are listed."""
+    """The command stores each student's work in a separate folder, and lists the students without work."""
     notebook = raw(handed_out("05"))
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": notebook, **packaged(), "notebooks/own.ipynb": b"{}"})
     add_home(homes, "ben", {NOTEBOOK: notebook})  # This student has moved the notebook.
@@ -243,7 +243,7 @@ def test_a_name_that_leads_elsewhere_is_refused(homes: Path, monkeypatch: pytest
 def test_a_time_that_was_set_back_is_listed(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """If a student has set back the time of a file, the file is reported."""
+    """If a student has changed the time of a file to an earlier time, the command reports the file."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     home = add_home(homes, "ben", {f"notebooks/{NOTEBOOK}": b"1"})
     os.utime(home / "ros-course" / "notebooks" / NOTEBOOK)

@@ -98,7 +98,7 @@ def test_a_folder_inside_the_course_is_refused() -> None:
 
 
 def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
-    """Only the zip of an earlier release is overwritten."""
+    """A release overwrites a zip file only if this file is the zip of an earlier release."""
     folder = tmp_path / "out"
     path = zip_path(folder)
     write_zip(path, "out", files(a="1"))

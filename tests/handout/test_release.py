@@ -18,7 +18,7 @@ from course_pkg.ros import PrivateMaster
 from tests.handout.releases import ROOT, files_of, git, make_release, python_in
 
 SHORT = 8  # A line with fewer characters is too common to identify an answer.
-MOST = 0.8  # Another file must contain at most this fraction of an answer's lines.
+MOST = 0.8  # Another file may contain at most this fraction of an answer's lines.
 # The goal of this part contains the whole file.
 BY_ASSIGNMENT = {"srv/geometry.srv": "07.2", "srv/ServiceExample.srv": "07.8"}
 ANSWER = """

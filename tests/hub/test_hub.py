@@ -35,7 +35,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def temporary_folder(folder: Path) -> Path:
-    """Return the folder for temporary files of the hub in `folder`."""
+    """Return the folder for temporary files of a hub."""
     settings = json.loads((folder / "hub" / "private" / "settings.json").read_text())
     return Path(settings["environment"][SCRATCH])
 

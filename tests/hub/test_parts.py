@@ -23,7 +23,7 @@ LIMITS = limits.Limits(memory=300, processes=50)
 
 
 def test_a_password_is_accepted_once(tmp_path: Path) -> None:
-    """A wrong password does not use up the right password, and a new password replaces the old password."""
+    """A wrong password does not make the right password invalid, and a new password replaces the old one."""
     record = Passwords(tmp_path / "passwords.json")
     password = record.issue(["anna"])["anna"]
     assert record.issue(["anna"]) == {}
@@ -50,7 +50,7 @@ def test_an_account_of_the_system_is_refused() -> None:
 
 
 def test_a_missing_or_foreign_home_is_a_problem(tmp_path: Path) -> None:
-    """The returned text contains the reason why the home folder cannot be used."""
+    """If a home folder cannot be used, the returned text contains the reason."""
     assert "does not exist" in accounts.home_problem(tmp_path / "none", os.getuid())
     assert "another user" in accounts.home_problem(tmp_path, os.getuid() + 1)
     assert accounts.home_problem(tmp_path, os.getuid()) == ""

@@ -36,7 +36,7 @@ def test_the_script_is_correct_shell(tmp_path: Path) -> None:
 
 
 def test_a_folder_with_files_is_refused(tmp_path: Path) -> None:
-    """Nothing is overwritten."""
+    """If the folder contains files, the command writes nothing."""
     (tmp_path / "file").write_text("mine")
     with pytest.raises(SetupError, match="is not an empty folder, so nothing was written"):
         write_bundle(tmp_path)

@@ -46,7 +46,7 @@ def by_hand(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
 
 
 def environment_of(service: Service, pattern: bytes) -> dict[str, str]:
-    """Return the environment of the server's child process whose command line contains `pattern`."""
+    """Return the environment of the server's child process whose command line contains the pattern."""
     found = eventually(lambda: having(pattern, below(service.process)), READY)
     return psutil.Process(found[0]).environ()
 

@@ -71,7 +71,7 @@ def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], messag
 
 
 def test_number_that_does_not_fit_into_a_float32(server: NodeProcess) -> None:
-    """The client's error message contains the number and no traceback."""
+    """If a number is too large for a float32, the error message contains the number and no traceback."""
     done = terminal("rosrun", "course_pkg", "client", "1e39", "1", "1")
     assert (done.returncode, done.stderr) == (
         2,

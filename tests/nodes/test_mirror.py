@@ -165,7 +165,7 @@ def test_a_signal_ends_each_node(program: str, number: signal.Signals, master: P
     ],
 )
 def test_an_invalid_parameter_is_refused(command: tuple[str, ...], message: str) -> None:
-    """The error message contains the parameter and its value, and the exit status is 1."""
+    """If a parameter is invalid, the error message contains its name and value, and the exit status is 1."""
     with NodeProcess(["rosrun", "course_pkg", *command]) as process:
         assert process.wait(10) == 1
         assert message in process.output()

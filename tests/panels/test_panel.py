@@ -163,7 +163,7 @@ def test_an_error_in_the_callback_does_not_end_the_thread(polled: Polled) -> Non
 
 
 def test_stop_ends_the_thread(polled: Polled) -> None:
-    """stop() ends the thread, and start() starts a new thread."""
+    """stop() ends the poller's thread, and start() starts a new thread."""
     polled.poller.start()
     polled.poller.start()
     eventually(lambda: polled.seen)

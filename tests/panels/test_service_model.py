@@ -41,7 +41,7 @@ class Caller:
         return response
 
     def cancel(self) -> None:
-        """Stop the wait."""
+        """Release the waiting call."""
         self.cancelled = True
         self.release.set()
 

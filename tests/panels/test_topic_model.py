@@ -169,7 +169,7 @@ def test_messages_that_cannot_be_read_are_named() -> None:
 
 
 def test_a_message_without_fields_is_a_message() -> None:
-    """A message without fields is listed, without a plot."""
+    """The panel lists a message without fields, and shows no plot."""
     empty = message_type("std_msgs/Empty")
     process = FakeProcess(empty)
     assert process.state["about"]["numbers"] == []

@@ -32,7 +32,7 @@ class Wall:
         self.model = TypeModel(lambda **parts: self.said.append(parts))
 
     def last(self, name: str) -> Plain:
-        """Return the latest value that the model has sent with the keyword `name`."""
+        """Return the latest value that the model has sent with the given keyword."""
         return next(each[name] for each in reversed(self.said) if name in each)
 
 

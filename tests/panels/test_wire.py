@@ -98,7 +98,7 @@ def covered(pieces: list[PieceState]) -> list[tuple[int, int]]:
 
 
 def gapless(pieces: list[PieceState], size: int) -> bool:
-    """Return whether the fields cover each of `size` bytes once and in order."""
+    """Return whether the fields cover each byte of the message once and in order."""
     at = 0
     for start, count in covered(pieces):
         if start != at:
@@ -123,7 +123,7 @@ def titles(*conversations: RelayedConnection, kind: ServiceType | None = GEOMETR
 
 
 def unknown(name: str) -> ServiceType:
-    """Raise UnknownType for the type `name`."""
+    """Raise UnknownType for any type name."""
     raise UnknownType(name, f"there is no {name}")
 
 

@@ -112,7 +112,7 @@ def test_a_second_start_sets_nothing_up() -> None:
 
 
 def test_doctor_reports_no_problem_on_this_machine() -> None:
-    """Without problems, the exit status of `course doctor` is 0."""
+    """If `course doctor` finds no problem, its exit status is 0."""
     answer = course("doctor", ROS_MASTER_URI="")
     assert answer.returncode == 0, answer.stdout
     assert "to do" not in answer.stdout

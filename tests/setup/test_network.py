@@ -29,7 +29,7 @@ def kernel(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_setting_that_forbids_namespaces_is_named(
     kernel: Path, name: str, forbids: str, _allows: str
 ) -> None:
-    """The message contains the kernel's setting, its value, and the command that changes the setting."""
+    """If a setting of the kernel forbids namespaces, the advice contains the command that changes it."""
     setting = kernel / name.replace(".", "/")
     setting.parent.mkdir()
     setting.write_text(f"{forbids}\n")

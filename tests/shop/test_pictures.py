@@ -20,7 +20,7 @@ from course_pkg.shop.pictures import (
 
 
 def figures(width: int, height: int, customers: int, y: float) -> int:
-    """Return the number of coloured segments in the pixel row at `y` (0 to 1) of a picture of the shop."""
+    """Count the coloured segments in a pixel row of a picture of the shop; `y` is 0 (top) to 1 (bottom)."""
     data = shop_picture(width, height, customers)
     start = 3 * width * int(y * height)
     row = [tuple(data[place : place + 3]) for place in range(start, start + 3 * width, 3)]
@@ -51,7 +51,7 @@ def test_the_same_shop_is_the_same_picture() -> None:
 def frame(
     data: bytes, width: int = WIDTH, height: int = HEIGHT, *, step: int = 0, encoding: str = "mono8"
 ) -> SimpleNamespace:
-    """Return the fields of a sensor_msgs/Image. Without `step`, the rows have no padding."""
+    """Return the fields of a sensor_msgs/Image. If `step` is not given, the rows have no padding."""
     return SimpleNamespace(data=data, width=width, height=height, step=step or width, encoding=encoding)
 
 

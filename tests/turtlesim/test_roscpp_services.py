@@ -18,7 +18,7 @@ from course_pkg.turtlesim.turtle_interface import publish_without_waiting
 
 
 def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.socket, dict[str, str]]:
-    """Connect to the server of the service `at`, and send a header with the fields `fields`.
+    """Connect to the server of a service, and send a header with the given fields.
 
     Return the socket and the server's header.
     """
@@ -37,7 +37,7 @@ def framed(sock: socket.socket) -> bytes:
 
 
 def exactly(sock: socket.socket, count: int) -> bytes:
-    """Read exactly `count` bytes."""
+    """Read exactly the given number of bytes."""
     data = b""
     while len(data) < count:
         more = sock.recv(count - len(data))
@@ -137,7 +137,7 @@ def test_valid_names(name: str) -> None:
     ],
 )
 def test_invalid_names(name: str, message: str) -> None:
-    """The error message contains the invalid character and its position, as in roscpp."""
+    """If a name is invalid, the error message contains the wrong character and its position, as in roscpp."""
     assert message in name_error(name)
 
 

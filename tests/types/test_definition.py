@@ -102,7 +102,7 @@ def test_definitions_that_ros_accepts(text: str) -> None:
 
 
 def test_a_message_has_no_halves() -> None:
-    """In a message definition, a line --- is refused."""
+    """The parser refuses a line --- in a message definition."""
     with pytest.raises(BrokenDefinition, match="a message cannot have a --- line"):
         compile_message("course_pkg/Broken", "int8 x\n---\n")
 

@@ -51,7 +51,7 @@ def test_a_type_that_is_new_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyP
     ],
 )
 def test_an_unknown_service_type_gets_advice(name: str, advice: str) -> None:
-    """The error message contains the name, and similar names or other advice."""
+    """If a type does not exist, the error message contains its name, and similar names or other advice."""
     with pytest.raises(UnknownType) as caught:
         service_type(name)
     assert advice in str(caught.value)

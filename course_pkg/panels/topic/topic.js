@@ -272,7 +272,8 @@ class TopicView {
     say(this.waiting, "");
   }
 
-  /** JupyterLab stops the Enter key from submitting a form, so this code does it. @param {KeyboardEvent} event */
+  /** JupyterLab stops the Enter key from submitting a form, so this code submits the form.
+   * @param {KeyboardEvent} event */
   #key(event) {
     if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement)) return;
     event.preventDefault();

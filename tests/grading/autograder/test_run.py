@@ -22,7 +22,7 @@ NOBODY = {
 
 
 def graded(root: Path, files: dict[str, bytes], **settings: float | tuple[str, ...]) -> dict[str, Plain]:
-    """Create Gradescope's folders with `files` as the submission; run the grader, and return results.json."""
+    """Create Gradescope's folders with a submission, run the grader, and return the grader's results."""
     known = Settings(**{"chapters": ("05",), "minutes": 5.0, **settings})  # type: ignore[arg-type]
     folder(root, {"source/settings.json": known.as_json().encode()})
     (root / "submission").mkdir(exist_ok=True)

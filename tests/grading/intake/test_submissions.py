@@ -296,7 +296,7 @@ def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None
     ],
 )
 def test_files_without_a_chapter_or_student(tmp_path: Path, name: str, words: str) -> None:
-    """Files without a chapter or a student are listed."""
+    """The program lists files that belong to no chapter or to no student."""
     [found] = submissions(folder(tmp_path, {name: b'{"cells": []}'}))
     assert words in found.problem
     assert found.chapter == ""
@@ -441,7 +441,7 @@ def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content
 
 
 def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
-    """A file in a student's folder never counts for another student who is named in the file's path."""
+    """A file in a student's folder never counts for another student whose name is in the file's path."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
         "submission_metadata.yml": GRADESCOPE,

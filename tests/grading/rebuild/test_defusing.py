@@ -52,7 +52,7 @@ BEFORE = ["", "\n\n", "  \n\t\n", ">>> ", "In [1]: ", "\x0c\n", "\r\n"]
 @pytest.mark.parametrize("magic", MAGICS)
 @pytest.mark.parametrize("before", BEFORE)
 def test_magic_of_a_cell_is_removed(magic: str, before: str) -> None:
-    """The magic is removed, and the other lines run as Python."""
+    """The function removes the cell magic, and the other lines run as Python."""
     made = defuse(f"{before}{magic}\n{DEF}")
     code = TransformerManager().transform_cell(made.source)
     assert "run_cell_magic" not in code

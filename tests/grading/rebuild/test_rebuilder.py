@@ -40,7 +40,7 @@ REFERENCE = book(
 
 
 def _student(change: Callable[[Cells], object] = lambda _: None, **answers: str) -> bytes:
-    """Return a student's notebook with these answers, and apply `change` to its cells.
+    """Return a student's notebook with these answers, and make a change to its cells.
 
     The keys of `answers` are "d", "c" and "w", for the cells D, C and W.
     """
@@ -65,7 +65,7 @@ def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
 
 
 def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
-    """Insert a student's own cells below the cell with the id `name`, or above it if `shift` is 0."""
+    """Insert a student's own cells below the named cell, or above it if `shift` is 0."""
     place = _place(cells, name) + shift
     cells[place:place] = [code(source, id=f"own-{place}-{number}") for number, source in enumerate(sources)]
 
@@ -195,7 +195,7 @@ def test_last_of_several_answers_is_used() -> None:
 
 
 def test_identical_copy_leads_to_no_note() -> None:
-    """A copied exercise cell with the same answer, no code or the blank exercise leads to no note."""
+    """A copied exercise cell with the same answer, no code or a blank exercise does not cause a note."""
     for source in (ANSWER, "", BLANK):
         made = _rebuilt(_student(lambda cells, source=source: _copied(cells, D, source), d=ANSWER))
         assert (made.answers["05.1"], made.notes) == (ANSWER, ())
@@ -324,7 +324,7 @@ def test_checks_and_given_cells_do_not_change() -> None:
     "content", [b"", b"{", b"[]", b"\xff", b'{"cells": 1}', b'{"cells": ' + b"[" * 100_000]
 )
 def test_what_is_no_notebook(content: bytes) -> None:
-    """For a file that is not a notebook, each part has a reason why its answer is missing."""
+    """If the file is not a notebook, the result contains a reason for the missing answer to each part."""
     made = _rebuilt(content)
     assert made.problem
     assert set(made.missing.values()) == {made.problem}

@@ -36,7 +36,7 @@ def _matched(origins: Origins, roster: tuple[Person, ...] = ROSTER) -> ClassList
     ],
 )
 def test_who_is_found(student: str, origin: str) -> None:
-    """The name of a folder is any field of the student in the roster, or a name with a platform's number."""
+    """A submission is named after the student's user name, address, id or name, with or without a number."""
     found = _matched({student: [origin]})
     assert found.people[student].line == JANE.line
     assert (found.found, found.strangers, found.unclear) == (1, (), {})
@@ -117,7 +117,7 @@ def test_the_summary() -> None:
 
 
 def test_without_lists() -> None:
-    """Without a roster, the names and numbers that the platforms assign identify the students."""
+    """Without a roster, the names and numbers from the platforms identify the students."""
     found = Lists().matched({"doejane_17": ["doejane_17_99_05.ipynb"], "s01": ["s01/05.ipynb"]})
     assert found.people == {"doejane_17": Person("doejane", "17")}
     assert list(found.summary()) == []

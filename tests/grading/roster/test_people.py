@@ -99,6 +99,9 @@ def test_no_roster(tmp_path: Path) -> None:
 
 
 def test_labels() -> None:
-    """A student's label is the student's name. For equal names, the label also contains the line number."""
+    """A student's label is the student's name.
+
+    If two students have the same name, the label also contains the line number.
+    """
     people = [JANE, Person(email="a@b.example", line=3), Person("Jane Doe", line=4)]
     assert list(labels(people)) == ["Jane Doe (line 2)", "a@b.example", "Jane Doe (line 4)"]

@@ -39,7 +39,7 @@ class Reports:
         self.process = TopicProcess(topic, self._report, self._lose)
 
     def published(self, part: str) -> Plain:
-        """Return the value with the name `part` from the latest report about the publisher."""
+        """Return a value from the latest report about the publisher; `part` is the name of the value."""
         return self.parts.get("publisher", {}).get(part)
 
     def _report(self, _process: TopicProcess, report: Report) -> None:

@@ -190,7 +190,7 @@ def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
 
 
 def ask(master: PrivateMaster, *nodes: str) -> Callers:
-    """Return the callers that the nodes `nodes` report."""
+    """Return the callers that the given nodes report."""
     probes = [callers_probe(uri) for uri in MasterClient(master.uri).lookup_all(nodes, ())[0].values()]
     ask_all(probes, 0.5)
     return {name: callers for probe in probes for name, callers in answered_callers(probe).items()}

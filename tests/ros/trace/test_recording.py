@@ -53,7 +53,7 @@ def recorded(asker: Kernel, cell: str) -> Recording:
 
 
 def kinds(recording: Recording, key: str) -> list[str]:
-    """Return the kinds of the events with the key `key`, in the order of their start times."""
+    """Return the kinds of the events with the given key, in the order of their start times."""
     return [event.kind for event in recording.parts(key)]
 
 
