@@ -1,4 +1,4 @@
-"""When a solution notebook is stored, the output of each panel gets a picture."""
+"""When `course sync` stores a solution notebook, each panel in the outputs gets a picture."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return a notebook as NotebookStore writes it over the notebook `before`."""
+    """Return a notebook as NotebookStore stores it if `before` was stored earlier."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)

@@ -49,7 +49,7 @@ from tests.browser.pages import new_page, panel
 # graph: measures an update of the graph panel with 20 nodes and 40 topics, and the CPU time for an unchanged
 # graph.
 
-UPDATE_BAR = 150.0  # ms
+UPDATE_BAR = 150.0  # An update may take at most this many ms.
 IDLE_BAR = 2.0  # The panel may use at most this percentage of a core.
 NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s

@@ -82,7 +82,7 @@ def widget(master: PrivateMaster) -> GraphPanel:
 
 
 def shape(graph: Locator, key: str) -> Locator:
-    """Return the element of a node, a topic, a service or a frame by its key."""
+    """Return the element of a node, topic, service or frame; the argument is the key of the element."""
     return graph.locator(f'[role="button"][data-key="{key}"]')
 
 

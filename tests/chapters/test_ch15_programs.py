@@ -64,7 +64,7 @@ def till() -> Iterator[NodeProcess]:
 
 
 def let_in(*after: float, stay: float = FOR_GOOD) -> LetInResponse:
-    """Let customers in."""
+    """Let customers enter the shop."""
     return BoundedProxy("/let_in", LetIn)(after=after, stay=stay)
 
 

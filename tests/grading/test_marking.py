@@ -70,7 +70,7 @@ def graded(worker: SandboxWorker, path: Path, chapter: str = "05") -> Grade:
 )
 @pytest.mark.timeout(300)
 def test_the_solution_earns_full_marks(worker: SandboxWorker, tmp_path: Path, chapter: str) -> None:
-    """The solution of a chapter passes every part in the sandbox."""
+    """In the sandbox, the solution of a chapter passes every part."""
     grade = graded(worker, hand_in(tmp_path, "s01", chapter), chapter)
     assert {report.check: report.verdict for report in grade.reports} == {
         each.part.check: Verdict.PASSED for each in plan(chapter).parts
@@ -161,7 +161,7 @@ def test_answer_may_use_cells_above(worker: SandboxWorker, tmp_path: Path) -> No
 
 
 def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
-    """If an exercise was deleted, only the points of this exercise are lost."""
+    """If a student has deleted an exercise, the student loses only the points of this exercise."""
     path = hand_in(tmp_path, "s01")
     notebook = json.loads(path.read_text())
     gone = next(cell for cell in code_cells(notebook) if "def handle_checked" in cell["source"])

@@ -128,7 +128,7 @@ def test_the_command_line(homes: Path, tmp_path: Path) -> None:
 
 
 def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Path, tmp_path: Path) -> None:
-    """New notebooks and packages replace the old notebooks and packages, and other chapters do not change."""
+    """A later collection replaces old notebooks and packages, and does not change other chapters."""
     home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1", **packaged()})
     run(homes, tmp_path / "out")
     (home / "ros-course" / "notebooks" / NOTEBOOK).write_bytes(b"2")
@@ -168,7 +168,7 @@ def home_of(homes: Path, student: str) -> Home:
 
 @pytest.mark.parametrize("place", ["ros-course", "ros-course/notebooks", f"ros-course/notebooks/{NOTEBOOK}"])
 def test_no_link_is_followed(homes: Path, place: str) -> None:
-    """If a link is in the place of a folder or a notebook, the link is reported, but not followed."""
+    """If a link replaces a folder or a notebook, the command reports the link and does not follow it."""
     add_home(homes, "other", {f"notebooks/{NOTEBOOK}": b"secret"})
     link = homes / "anna" / place
     link.parent.mkdir(parents=True)
@@ -181,7 +181,7 @@ def test_no_link_is_followed(homes: Path, place: str) -> None:
 
 
 def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None:
-    """A link in a package and a link to a package are reported and not collected."""
+    """The command reports a link in a package and a link to a package, and does not collect them."""
     home = add_home(homes, "anna", packaged())
     sources = home / "ros-course" / "workspace" / "src"
     (sources / "my_geometry" / "passwords").symlink_to("/etc/passwd")
@@ -202,7 +202,7 @@ def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None
 def test_pipes_large_files_and_large_packages_are_left_out(
     homes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Named pipes, large notebooks and large packages are not collected."""
+    """The command does not collect named pipes, large notebooks and large packages."""
     monkeypatch.setattr("course_pkg.grading.intake.archive.LARGEST", 1 << 20)
     home = add_home(
         homes, "anna", {"notebooks/06_write_a_client.ipynb": b"x" * ((1 << 20) + 1), **packaged()}
@@ -221,7 +221,7 @@ def test_pipes_large_files_and_large_packages_are_left_out(
 
 
 def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a home folder does not respond within the time limit, the folder is reported."""
+    """If a home folder does not respond within the time limit, the command reports the folder."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: signal.pause())
     [home] = homes_in(homes)
@@ -230,7 +230,7 @@ def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytes
 
 
 def test_a_name_that_leads_elsewhere_is_refused(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A path that leads out of the home folder is refused."""
+    """The command refuses a path that leads out of the home folder."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     file = WorkFile("../../ben/05_write_a_server.ipynb", b"", 0, 0)
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: iter([file]))
@@ -263,7 +263,7 @@ def test_a_time_that_is_no_date_does_no_harm(homes: Path, tmp_path: Path) -> Non
 
 
 def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """If no student has any work, the command returns 1, and a message asks to check the folder's name."""
+    """If no student has any work, the command returns 1 and asks for a check of the folder's name."""
     add_home(homes, "anna", {}, "other")
     assert run(homes, tmp_path / "out") == 1
     assert "Check that ros-course is the course's folder in each home folder." in capsys.readouterr().out
@@ -279,7 +279,7 @@ def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path
 
 @pytest.mark.parametrize("folder", ["/home/anna/ros-course", "../ben", "."])
 def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Path) -> None:
-    """An absolute path, or a path that leads out of the home folder, is refused."""
+    """The command refuses an absolute path, and a path that leads out of the home folder."""
     with pytest.raises(HandoutError, match="Give the folder's path below the home folder"):
         collect(Options(folder, tmp_path / "out", homes))
 
@@ -290,7 +290,7 @@ def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Pa
 def test_a_list_of_students(
     text: str, homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Only work of listed students is collected, and a listed student without a home folder is reported."""
+    """The command collects only work of listed students, and reports a student without a home folder."""
     (tmp_path / "students").write_text(text)
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     add_home(homes, "teacher", {f"notebooks/{NOTEBOOK}": b"1"})

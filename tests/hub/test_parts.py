@@ -71,7 +71,7 @@ def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
 
 
 def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
-    """Without control groups, describe() names rlimits, and an allocation above the limit fails."""
+    """Without control groups, describe() mentions rlimits, and an allocation above the limit fails."""
     assert limits.group_of_hub(tmp_path) is None
     assert "rlimits" in limits.describe(LIMITS, None, own_account=True)
     program = "from tests.hub.test_parts import *; limits.set_rlimits(LIMITS, True); bytearray(400 << 20)"

@@ -83,7 +83,7 @@ def test_an_invalid_joint_state_is_refused(odd: JointState, message: str) -> Non
 
 @pytest.mark.parametrize("fine", [JointState(), JointState(name=["a"], position=[1.0], velocity=[])])
 def test_a_joint_state_may_have_no_joints_or_no_velocities(fine: JointState) -> None:
-    """A joint state without joints, or without velocities, is accepted."""
+    """The node accepts a joint state without joints, or without velocities."""
     assert len(mirrored(fine).position) == len(fine.name)
 
 

@@ -216,7 +216,7 @@ def test_the_page_needs_no_other_files() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_a_notebook_gets_text_and_html_with_links_to_the_chapters() -> None:
-    """The output of a cell contains a link to each notebook."""
+    """The overview in the output of a cell contains a link to each notebook."""
     bundle = progress()._repr_mimebundle_()
     assert bundle["text/plain"] == str(progress())
     links = {attributes["href"] for name, attributes in Tags(bundle["text/html"]).found if name == "a"}

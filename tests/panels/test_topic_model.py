@@ -158,7 +158,7 @@ def test_messages_are_listed_the_latest_first_and_bounded() -> None:
 
 
 def test_messages_that_cannot_be_read_are_named() -> None:
-    """A message that cannot be read is listed with a note."""
+    """The panel lists a message that it cannot read, with a note."""
     process = FakeProcess()
     process.model.report(
         {"messages": [message(1, "", STRING, texts=None), message(2, "", texts=None, size=1_000_000)]}

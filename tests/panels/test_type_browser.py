@@ -63,7 +63,7 @@ def test_a_service_type_has_fields_comments_and_lines() -> None:
 
 
 def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
-    """Nested messages are shown with their fields, and constants are listed."""
+    """The browser shows nested messages with their fields, and lists constants."""
     [fields] = described("rosgraph_msgs/Log", "msg")["parts"]
     header = fields["fields"][0]
     assert (header["type"], [each["name"] for each in header["fields"]]) == (

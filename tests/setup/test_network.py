@@ -44,7 +44,7 @@ def test_other_reasons_are_quoted(kernel: Path) -> None:
 
 
 def test_what_outgoing_connections_need(kernel: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The message says what is missing: the program, its device, or a name server that it can reach."""
+    """If a part is missing, the message names it: the program, its device, or a reachable name server."""
     assert "slirp4netns is not installed" in network.outgoing_problem()[0]
     fake(kernel, "slirp4netns", "exit 0")
     monkeypatch.setattr(network, "DEVICE", str(kernel / "none"))

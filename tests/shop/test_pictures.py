@@ -70,7 +70,7 @@ def test_a_tenth_of_dark_points_is_enough(dark: int, seen: bool) -> None:
 
 
 def test_the_padding_of_a_row_is_ignored() -> None:
-    """If `step` is larger than the width, the additional bytes of a row are ignored."""
+    """If `step` is larger than the width, the function ignores the additional bytes of a row."""
     light, dark = bytes([200] * 10 + [0] * 6), bytes([0] * 10 + [255] * 90)
     assert not sees_customer(frame(light * 10, 10, 10, step=16))
     assert sees_customer(frame(dark, 10, 1, step=100))

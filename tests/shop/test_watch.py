@@ -38,7 +38,7 @@ def test_a_customer_who_has_left_is_forgotten() -> None:
 
 
 def test_one_customer_replaces_another() -> None:
-    """A new customer is found even if another customer leaves at the same time."""
+    """The watch finds a new customer even if another customer leaves at the same time."""
     watch = Watch()
     watch.see([1])
     watch.see([2])

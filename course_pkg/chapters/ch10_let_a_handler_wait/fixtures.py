@@ -1,4 +1,4 @@
-"""The cells before and after an answer of chapter 10 outside of its notebook; see checking/fixtures.py."""
+"""If an answer runs without its notebook, these cells run before and after it; see checking/fixtures.py."""
 
 # %% before
 import threading

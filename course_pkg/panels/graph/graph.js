@@ -5,7 +5,7 @@ import { Canvas } from "./canvas.js";
 import { recordingOf } from "./recording.js";
 import { pairs } from "./sentences.js";
 
-const TICK = 250; // While a recording plays, the fading lines are drawn every TICK ms.
+const TICK = 250; // While a recording plays, this code draws the fading lines every TICK ms.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {

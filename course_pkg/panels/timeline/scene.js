@@ -1,4 +1,5 @@
-/* The data of a timeline: events in typed columns, and the positions of lanes and rows. This module uses no page. */
+/* The data of a timeline: events in typed columns, and the positions of lanes and rows. This module does
+   not use the page. */
 
 /** @typedef {{length: number, kinds: string[], lanes: {node: string, rows: number}[], columns: Record<string, number[]>, strings: string[],
  *   arrows: [number, number][], waits: {calls: any[], streams: any[]}, idle: string[], unrecorded: [string, string][], notes: string[]}} Recorded */

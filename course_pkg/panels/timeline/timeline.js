@@ -78,7 +78,7 @@ class TimelineView {
   #listen() {
     this.observer = new ResizeObserver(([entry]) => {
       this.drawing.resize(Math.floor(entry.contentRect.width));
-      this.#drawNow(); // Without this, the page would show no drawing for a moment.
+      this.#drawNow(); // Without this call, the page would show no drawing for a moment.
     });
     this.observer.observe(this.window);
     this.paper = window.matchMedia("print"); // A printed page has other colours.

@@ -20,7 +20,7 @@ from tests.class_view.classes import tokens_in
 from tests.support import eventually
 
 STUDENTS = 60
-RATE = 10  # results per second
+RATE = 10  # The senders send this many results per second.
 SECONDS = 30
 PARTS = ("05.1", "05.2", "05.3", "05.4")
 VERDICTS = ("passed", "not yet", "not yet")

@@ -30,7 +30,7 @@ START_RATIO, START_BAR = 0.75, 3.0
 # A click in `course lab` may take at most this fraction of the duration in `jupyter lab`, and at most this
 # many ms.
 CLICK_RATIO, CLICK_BAR = 0.3, 12.0
-WARM_UP = 10  # clicks
+WARM_UP = 10  # The benchmark ignores this number of clicks at the beginning.
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
 FLAGS += ["--disable-background-networking"]
 # The selector excludes hidden tabs, because `jupyter lab` restores old tabs.

@@ -24,7 +24,7 @@ from tests.checking.answers.workers import WorkerPool
 PARTS = {part.check: part for part in every_part()}
 # The answers with the longest deadlines run first, so that all sandboxes are busy until the end.
 ANSWERS = sorted(every_answer(), key=lambda answer: -PARTS[answer.check].deadline)
-# These are the first right answers to each part.
+# This dict contains the first right answer to each part.
 RIGHT = {answer.check: answer for answer in reversed(ANSWERS) if answer.right}
 pytestmark = pytest.mark.timeout(900)  # time limit in s for a test that waits in the queue
 # A usual run contains this number of right answers (key True) and of wrong answers (key False) to each part;
@@ -88,7 +88,7 @@ def _case(item: pytest.Item) -> Answer | Part | None:
 
 
 def _params() -> Iterator[ParameterSet]:
-    """Yield the answers; answers that a usual run leaves out are marked as slow."""
+    """Yield the answers; mark the answers that a usual run does not include as slow."""
     count: Counter[tuple[str, bool]] = Counter()
     for answer in ANSWERS:
         count[answer.check, answer.right] += 1
@@ -105,8 +105,8 @@ def _name(answer: Answer) -> str:
 def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report: Report) -> None:
     """A right answer passes; a wrong answer fails, and the report contains the hint for its mistake.
 
-    The text and the HTML of a pass are stored in the solution, and nbval compares both. So they must not
-    contain the random inputs of the check.
+    The solution contains the text and the HTML of a pass, and nbval compares them. So they must not contain
+    the random inputs of the check.
     """
     assert report.verdict is (Verdict.PASSED if answer.right else Verdict.FAILED), str(report)
     text = " ".join(str(report).split())

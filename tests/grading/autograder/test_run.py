@@ -94,7 +94,7 @@ def test_two_notebooks_of_two_chapters_are_both_graded(tmp_path: Path) -> None:
 
 
 def test_broken_settings_still_give_results(tmp_path: Path) -> None:
-    """For a damaged settings.json, the results contain a message and no points."""
+    """If settings.json is damaged, the results contain a message and no points."""
     folder(tmp_path, {"source/settings.json": b"{"})
     assert autograde(tmp_path) == 0
     results = json.loads((tmp_path / "results" / "results.json").read_text("utf-8"))

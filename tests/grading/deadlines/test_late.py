@@ -43,7 +43,7 @@ def test_deduction_for_lateness(
 
 
 def test_without_a_table_no_submission_is_late() -> None:
-    """Without a table and a deadline, no submission is late."""
+    """Without a table of late days and without a deadline, no submission is late."""
     assert late_policy(None, None, None).factor(9) == 1.0
 
 

@@ -86,7 +86,7 @@ def test_gradescope(tmp_path: Path, pack: bool) -> None:
 
 @pytest.mark.parametrize("outer", ["", "submitted/"])
 def test_nbgrader(tmp_path: Path, outer: str) -> None:
-    """The file timestamp.txt is read only with the option `--times nbgrader`."""
+    """`course grade` reads the file timestamp.txt only with the option `--times nbgrader`."""
     files = {
         f"{outer}s01/ps1/{FILE}": NOTEBOOK,
         f"{outer}s01/ps1/timestamp.txt": b"2026-11-01 22:59:30.123456 UTC",

@@ -128,7 +128,7 @@ def test_right_example_answers() -> None:
 
 
 def test_a_program_in_a_package() -> None:
-    """The Python files in a package are searched, and the flag contains a line of the file."""
+    """The search also reads the Python files in a package, and the flag contains a line of the file."""
     script = work_file("scripts/spawn_turtle.py", b"#!/usr/bin/env python3\nimport ctypes\n", executable=True)
     packages = (Package("my_turtles", (script,), "s01/my_turtles"),)
     handed_in = Submission("s01", "09", b"", "s01/my_turtles", problem="No notebook.", packages=packages)

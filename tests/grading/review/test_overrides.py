@@ -50,7 +50,7 @@ def test_other_encodings_and_columns(tmp_path: Path) -> None:
 
 
 def test_a_part_that_a_spreadsheet_may_have_changed(tmp_path: Path) -> None:
-    """If the parts 15.1 and 15.10 both exist, a row for 15.1 is refused.
+    """If the parts 15.1 and 15.10 both exist, the program refuses a row for 15.1.
 
     A spreadsheet changes the text 15.10 to 15.1.
     """

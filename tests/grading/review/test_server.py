@@ -69,7 +69,7 @@ def _refused(out: Path, *options: str) -> str:
 
 
 def test_the_command(tmp_path: Path) -> None:
-    """A second `course review` for the same folder is refused, and saved points remain after SIGKILL."""
+    """The server refuses a second `course review` for a folder, and SIGKILL deletes no saved points."""
     out = write_class(tmp_path / "grades")
     with _review(out, "--part", "5.1") as (process, url, token):
         own = {"Authorization": f"token {token}"}

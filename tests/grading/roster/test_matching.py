@@ -50,7 +50,7 @@ def test_names_in_any_order_and_with_any_accents(name: str) -> None:
 
 
 def test_two_students_with_one_name() -> None:
-    """If a name is in two rows of the roster, the student is reported as unclear."""
+    """If a name is in two rows of the roster, the program reports the student as unclear."""
     found = _matched({"Ann Lee": ["Ann Lee/05.ipynb"]})
     assert "Ann Lee" not in found.people
     assert found.unclear == {"Ann Lee": "the student fits several rows of the roster (lines 4 and 5)"}
@@ -65,7 +65,7 @@ def test_a_number_decides_between_two_students_with_one_name() -> None:
 
 
 def test_parts_that_contradict_each_other() -> None:
-    """If a folder's number and name belong to different students, the student is reported as unclear."""
+    """If a folder's number and name belong to different students, the program reports this as unclear."""
     found = _matched({"doejane_18": ["doejane_18_99_05.ipynb"]})
     assert "different rows of the roster (lines 2 and 3)" in found.unclear["doejane_18"]
     assert found.people["doejane_18"] == Person("doejane", "18")
@@ -84,7 +84,7 @@ def test_a_roster_with_the_numbers_of_moodle() -> None:
 
 
 def test_two_folders_of_one_student() -> None:
-    """If two folders belong to the same row of the roster, both folders are reported as unclear."""
+    """If two folders belong to the same row of the roster, the program reports both folders as unclear."""
     found = _matched({"jdoe": ["jdoe/05.ipynb"], "Jane Doe": ["Jane Doe/05.ipynb"]})
     assert found.unclear == {
         "jdoe": "the student fits the same row of the roster (line 2) as Jane Doe",

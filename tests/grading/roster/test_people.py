@@ -55,7 +55,7 @@ def test_columns_that_are_missing(tmp_path: Path, content: str, person: Person) 
 
 
 def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
-    """In Canvas's export, the row of possible points and the test student are ignored."""
+    """In Canvas's export, the program ignores the row of possible points and the test student."""
     content = (
         "Student,ID,SIS User ID,SIS Login ID,Section,Lab 1 (99)\n    Points Possible,,,,,9.0\n"
         '"Doe, Jane",17,S4,jdoe,ROS 2026,\n"Student, Test",18,,f00,ROS 2026,\n'

@@ -66,7 +66,7 @@ def test_only_two_cells_change(tmp_path: Path, content: str, grade: int, written
 def test_the_participants(
     tmp_path: Path, content: str, maxima: list[float | None], locked: list[bool]
 ) -> None:
-    """The participants and their maximum grades are read from worksheets in each language."""
+    """The program reads the participants and their maximum grades from worksheets in each language."""
     found = _read(tmp_path, content).participants
     assert [each.maximum for each in found] == maxima
     assert [each.locked for each in found] == locked

@@ -35,7 +35,7 @@ def test_a_wrong_folder_is_refused(tmp_path: Path, files: dict[str, bytes], said
 
 
 def test_another_file_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A file whose name is not similar to a valid name is not used, and a message contains its name."""
+    """The program does not use a file whose name is not similar to a valid name, but prints the name."""
     require_names(folder(tmp_path, {"private_05.py": b"x", "notes.md": b"", ".git/config": b""}), CHAPTERS)
     assert "notes.md" in capsys.readouterr().err
     require_names(folder(tmp_path / "a", {"points.json": b"{}"}), CHAPTERS)

@@ -90,7 +90,7 @@ def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
 def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
     """If the process that keeps a graph's network is killed with SIGKILL, the master of the graph ends.
 
-    The socket file of the killed process is removed when the next command starts or ends.
+    The next command removes the socket file of the killed process when it starts or ends.
     """
     processes = of_graphs(tmp_path)
     os.kill(processes[0], signal.SIGKILL)

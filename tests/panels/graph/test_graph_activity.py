@@ -164,7 +164,7 @@ CALLERS = {
 
 
 def test_callers_are_listed_and_ended_callers_are_marked() -> None:
-    """The latest caller is first in the list of callers, and callers that have ended are marked."""
+    """The latest caller is first in the list of callers, and the list marks callers that have ended."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert wall.now["callers"]["service /robot/ask"] == [
@@ -178,7 +178,7 @@ def test_callers_are_listed_and_ended_callers_are_marked() -> None:
 
 
 def test_a_killed_caller_is_gone() -> None:
-    """A caller whose process was killed is marked as gone."""
+    """The panel marks a caller whose process was killed as gone."""
     wall = Wall(graph(dead="/client"))
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert [each["gone"] for each in wall.now["callers"]["service /robot/ask"]] == [True, True]
@@ -295,7 +295,7 @@ def test_a_restarted_publisher_is_counted_from_its_start() -> None:
 
 
 def test_the_memory_is_bounded() -> None:
-    """Counts older than 30 s are deleted."""
+    """The meter deletes counts that are older than 30 s."""
     meter = counted(10, 600)
     assert len(meter._counts) <= LONG / 2 + 1
 

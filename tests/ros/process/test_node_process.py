@@ -184,7 +184,7 @@ def test_launch_file() -> None:
 
 
 def test_a_private_graph_is_separate(master: PrivateMaster) -> None:
-    """The nodes of a private graph are registered only at its own master."""
+    """The nodes of a private graph are registered only at the master of this graph."""
     with PrivateGraph() as graph:
         graph.run("course_pkg", "pulse")
         assert MasterClient(graph.uri).system_state().nodes == ("/pulse",)

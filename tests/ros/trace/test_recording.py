@@ -195,7 +195,7 @@ def test_unfinished_events_are_open(asker: Kernel) -> None:
 
 
 def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
-    """When a client process exits, the client's events are sent to the recording."""
+    """When a client process exits, it sends its events to the recording."""
     recording = recorded(
         asker,
         """
@@ -216,7 +216,7 @@ def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
 
 
 def test_a_kernel_that_leaves_during_the_recording(asker: Kernel) -> None:
-    """When the kernel of another notebook calls leave(), the events of its node are sent to the recording."""
+    """When the kernel of another notebook calls leave(), it sends its node's events to the recording."""
     with Kernel() as other:
         other.run("from std_srvs.srv import Trigger; from course_pkg.ros import join; node = join('other')")
         asker.run("""
@@ -248,7 +248,7 @@ def test_a_server_that_died(asker: Kernel) -> None:
 
 
 def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
-    """A node that is suspended with SIGSTOP is listed as unrecorded, and causes only a short delay."""
+    """A recording lists a node that is suspended with SIGSTOP as unrecorded, after only a short delay."""
     reply = asker.ask("""
         import os, signal
         server = node.run("course_pkg", "pulse")
@@ -266,7 +266,7 @@ def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
 
 
 def test_a_node_without_the_course(asker: Kernel, master: PrivateMaster) -> None:
-    """A node without prepare_node() is listed as unrecorded."""
+    """A recording lists a node without prepare_node() as unrecorded."""
     with plain_node(master):
         recording = recorded(asker, "with node.record() as recording:\n    node.call('/plain', Trigger)")
     assert "keeps no record" in recording.unrecorded["/plain"]
