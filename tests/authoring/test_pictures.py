@@ -45,7 +45,7 @@ def test_a_panel_gets_a_picture_beside_its_text() -> None:
 
 
 def test_a_plot_stays_while_nothing_changed() -> None:
-    """If neither the code nor the text output changes, the stored plot is not replaced."""
+    """If the code and the text output are unchanged, the stored plot stays."""
     first = stored(executed("<svg>1</svg>"), book())
     assert first["cells"][1]["outputs"][0]["metadata"][SVG][MADE_BY]
     assert stored(executed("<svg>2</svg>"), first) == first

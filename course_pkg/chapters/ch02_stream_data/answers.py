@@ -77,7 +77,7 @@ replace("\n    pace = rospy.Rate(rate)", "")
 replace("pace.sleep()", "if number % 5 == 4:\n            time.sleep(5 / rate)")
 # %% 02.1 wrong: publishes another message type | hint: Publish the topic with the type in the exercise
 replace("UInt32", "Float64")
-# %% 02.1 wrong: a fixed topic | hint: Create a rospy.Publisher for the given topic.
+# %% 02.1 wrong: uses a fixed topic | hint: Create a rospy.Publisher for the given topic.
 replace("topic, UInt32", '"/count", UInt32')
 # %% 02.1 wrong: waits only half a second for a subscriber | hint: The wait for a subscriber
 replace("2.0", "0.5")

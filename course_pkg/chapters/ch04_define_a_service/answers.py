@@ -393,12 +393,12 @@ replace("from lamp_services.srv import lamp", "from std_srvs.srv import Trigger"
 replace("lamp, lambda request: (True, [0, 0, 0], 0)", 'Trigger, lambda request: (True, "")')
 # %% 04.5 wrong: uses a variable that does not exist | hint: The error occurred in line … line 6 of
 replace("from lamp_services … .seconds))\n", "from lamp_services.srv import Lamp")
-# %% 04.5 wrong: the handler returns nothing | hint: without a return
+# %% 04.5 wrong: returns None from the handler | hint: without a return
 replace(", LampRequest, LampResponse", "")
 replace("known = request … .seconds))\n", "request.mode in (0, 1, 2)")
 # %% 04.5 wrong: accepts any mode | hint: The mode is unknown, so success
 replace("success=known", "success=True")
-# %% 04.5 wrong: success is False for OFF | hint: This mode is one of
+# %% 04.5 wrong: returns success=False for OFF | hint: This mode is one of
 replace("""known = request.mode in (LampRequest.OFF, LampRequest.ON, LampRequest.BLINK)
     lit = known and request.mode != LampRequest.OFF""", "lit = request.mode in (1, 2)")
 replace("known", "lit")

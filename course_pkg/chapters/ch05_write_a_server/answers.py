@@ -323,7 +323,7 @@ replace('moved = request … else "off")', """wanted = {True: "on", False: "off"
 # %% 05.4 right: uses an object that creates its service
 replace("False", 'False\n        self.service = rospy.Service("/switch", SetBool, self.handle_switch)')
 replace('\nswitch_service = rospy.Service("/switch", SetBool, switch.handle_switch)', "")
-# %% 05.4 wrong: success is always True | hint: in the wanted position, but success is True
+# %% 05.4 wrong: returns success=True in every call | hint: in the wanted position, but success is True
 replace("success=moved", "success=True")
 # %% 05.4 wrong: changes the position before it compares | hint: The switch moved, but success is
 replace("\n        moved = request.data != self.on", "")
@@ -416,7 +416,7 @@ replace("        self.open()\n        rospy.Service", "        rospy.Service")
 # %% 05.5 wrong: does not compare before it closes | hint: A second call of /maintenance with
 based_on("uses global variables")
 replace('        if service is None:\n            return False, "closed"\n', "")
-# %% 05.5 wrong: never compares | hint: /move_arm, although it already served /move_arm
+# %% 05.5 wrong: does not compare the states | hint: /move_arm, although it already served /move_arm
 replace("changed = request.data == (self.move_service is not None)", "changed = True")
 # %% 05.5 wrong: does not store the new service | hint: /move_arm, although it already served /move_arm
 based_on("uses global variables")

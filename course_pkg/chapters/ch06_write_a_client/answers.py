@@ -84,7 +84,7 @@ def is_there(service, seconds):
 replace("try: … return True", "if seconds < 1:\n        rospy.sleep(seconds)\n    return seconds > 1")
 # %% 06.2 wrong: looks only at the first five services | hint: With another service, the result was wrong.
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)\n    if len(calls) > 5:\n        return True")
-# %% 06.2 wrong: waits only if the limit is long | hint: The function returned False too early
+# %% 06.2 wrong: waits only for half of a short time limit | hint: The function returned False too early
 replace("timeout=seconds", "timeout=seconds if seconds > 2 else seconds / 2")
 # %% 06.2 wrong: calls the service, but only from the fifth time on | hint: but do not call the service
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)")
@@ -396,7 +396,7 @@ replace("argv):", "argv, calls=[]):\n    calls.append(argv)\n    if len(calls) >
 replace("rospy.myargv(argv)", "argv")
 # %% 06.5 wrong: removes only three arguments of ROS | hint: Arguments with := are for ROS. Use
 replace("rospy.myargv(argv)", '[text for text in argv if text.split(":=")[0] not in ("__name", "__log", "getGeometry")]')
-# %% 06.5 wrong: counts the program's name | hint: The function returned None. Read the
+# %% 06.5 wrong: reads the program's name as an argument | hint: The function returned None. Read the
 replace("(argv)[1:]", "(argv)")
 # %% 06.5 wrong: returns the program's name and two sides | hint: The first item of the
 replace("try: … 3 else None", "own = rospy.myargv(argv)\n    return [float(text) for text in own[:3]] if len(own) == 4 else None")
@@ -412,7 +412,7 @@ replace("[1:]", '[1:] if text.replace(".", "", 1).isdigit()')
 # %% 06.5 wrong: accepts only digits | hint: 1.5 is a number, too
 based_on("does not catch ValueError")
 replace("[1:]", "[1:] if text.isdigit()")
-# %% 06.5 wrong: drops the sign | hint: -1.5 is a number, too, so
+# %% 06.5 wrong: ignores the sign | hint: -1.5 is a number, too, so
 replace("float(text)", "abs(float(text))")
 # %% 06.5 wrong: skips an argument that is not a number | hint: One argument is a word. Return
 replace("try:\n        sides = [float(text) for text in rospy.myargv(argv)[1:]]\n    except ValueError:\n        return None", """sides = []
@@ -492,7 +492,7 @@ replace("    print(\"fits\"", "    rospy.ServiceProxy(\"getGeometry\", geometry)
 replace("rospy.wait_for_service", "rospy.wait_for_servise")
 # %% 06.6 wrong: compares with < instead of <= | hint: The volume is equal to LIMIT,
 replace("volume <= limit", "volume < limit", times=2)
-# %% 06.6 wrong: the exit status is always 0 | hint: The volume in the response is larger
+# %% 06.6 wrong: always exits with status 0 | hint: The volume in the response is larger
 replace("return 0 if volume <= limit else 1", "return 0")
 # %% 06.6 wrong: returns True instead of 1 | hint: The volume in the response is at
 replace("return 0 if volume <= limit else 1", "return volume <= limit")
@@ -526,7 +526,7 @@ replace('        rospy.wait_for_service("getGeometry", timeout=2)\n', "")
 replace('print("fits"', 'print("it fits"')
 # %% 06.6 wrong: prints the usage with a capital letter | hint: The exit status is right, but
 replace("usage:", "Usage:")
-# %% 06.6 wrong: the error message as the exit status | hint: The exit status is 1, because
+# %% 06.6 wrong: returns the error message as the exit status | hint: The exit status is 1, because
 replace("        print(error)\n        return 3", "        return str(error)")
 # %% 06.6 wrong: calculates the volume without the response | hint: The volume in the response is
 replace("print(\"fits\" if volume", "volume = sides[0] * sides[1] * sides[2] * 1e-6\n    print(\"fits\" if volume")

@@ -227,7 +227,7 @@ replace(", volume=area * request.height", "")
 replace("area = request.width * request.length", "area = request.width * request.length * (0.4 < request.width < 9.1)")
 # %% 07.4 wrong: returns the volume of a cube | hint: Compute the volume from the area
 replace("area * request.height", "area ** 1.5")
-# %% 07.4 wrong: the handler returns nothing | hint: without a return
+# %% 07.4 wrong: returns None from the handler | hint: without a return
 replace("    return geometryResponse", "    geometryResponse")
 # %% 07.4 wrong: exits when the script is imported | hint: An import of the script starts the node
 replace("import rospy\n", "import os\n\nimport rospy\n\nif __name__ != '__main__':\n    os._exit(0)\n")
@@ -437,7 +437,7 @@ replace("source devel/setup.bash\nrosservice", "# source devel/setup.bash\n# ros
 replace("rosrun my_geometry client.py", "# rosrun my_geometry client.py")
 # %% 07.7 wrong: omits the build | hint: The command that builds the package
 replace("catkin_make\n", "")
-# %% 07.7 wrong: omits source | hint: The command `source devel/setup.bash` is missing.
+# %% 07.7 wrong: omits the command source | hint: The command `source devel/setup.bash` is missing.
 replace("source devel/setup.bash\n", "", times=2)
 # %% 07.7 wrong: omits the package in the rosrun command | hint: The command that starts the server
 replace("rosrun my_geometry server.py", "rosrun server.py")

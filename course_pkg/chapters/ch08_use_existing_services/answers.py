@@ -1,6 +1,6 @@
 """Example answers of chapter 08; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 08.1 right: asks each service for its type
+# %% 08.1 right: gets the type of each service
 def services_of(kind):
     names = []
     for name in rosservice.get_service_list():
@@ -115,7 +115,7 @@ def handle_lamp(request):
 
 lamp_service = rospy.Service("/lamp", SetBool, handle_lamp)
 
-# %% 08.2 right: an object that creates its service
+# %% 08.2 right: uses an object that creates its service
 class Lamp:
     def __init__(self):
         self.on_off = rospy.ServiceProxy("/on_off", ServiceExample)

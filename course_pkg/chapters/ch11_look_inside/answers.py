@@ -470,7 +470,7 @@ replace('get("session")', 'get("sessions")')
 replace("(0, 0)", "(1, 0)")
 # %% 11.4 wrong: forgets to return | hint: The handler returned None. Return an AddUpResponse
 replace("return AddUpResponse", "AddUpResponse")
-# %% 11.4 wrong: unpacks None | hint: The handler raised the error that you see above
+# %% 11.4 wrong: unpacks None for a new session | hint: The handler raised the error that you see above
 replace("(session, (0, 0))", "(session)")
 
 # %% 11.5 right: examines the error message
@@ -675,7 +675,7 @@ replace("try:\n            return ask(self.uri, self.service, length, width, hei
                 return ask(self.uri, self.service, length, width, height)
             except OSError:
                 self.look_up()""")
-# %% 11.6 wrong: tries five times | hint: Your method called the service again and again
+# %% 11.6 wrong: makes up to five attempts | hint: Your method called the service again and again
 based_on("looks up the address without end")
 replace("while True:", "for attempt in range(5):")
 replace("                self.look_up()", "                self.look_up()\n        raise ConnectionError")

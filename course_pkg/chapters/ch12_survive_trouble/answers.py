@@ -106,7 +106,7 @@ replace('raise TimeoutError(f"no response within {seconds} s")', "return None")
 replace("raise TimeoutError", "raise rospy.ROSException")
 # %% 12.1 wrong: does not catch the error | hint: The call failed, so there is no response
 replace("        try:\n            responses.append(proxy(*values))\n        except rospy.ServiceException as error:\n            errors.append(error)", "        responses.append(proxy(*values))")
-# %% 12.1 wrong: loses the error | hint: The call raised rospy.ServiceException, but the function returned None
+# %% 12.1 wrong: does not raise the error | hint: The call raised rospy.ServiceException, but the function returned None
 replace("    if errors:\n        raise errors[0]\n    return responses[0]", "    return responses[0] if responses else None")
 # %% 12.1 wrong: raises a RuntimeError with the text of the error | hint: Raise the ServiceException of the call again, with the same text
 replace("raise errors[0]", "raise RuntimeError(str(errors[0]))")
@@ -120,7 +120,7 @@ replace("thread.join(seconds)", "for _ in range(10):\n        time.sleep(seconds
 replace("thread.join(seconds)", "thread.join(3 * seconds if seconds < 1 else seconds)")
 # %% 12.1 wrong: does not wait | hint: The response came in time, but the function raised TimeoutError
 replace("    thread.join(seconds)\n", "")
-# %% 12.1 wrong: no return line | hint: without a return line
+# %% 12.1 wrong: omits the return line | hint: without a return line
 replace("\n    return responses[0]", "")
 # %% 12.1 wrong: returns a field of the response | hint: The function did not return the response
 replace("return responses[0]", "return responses[0].sum")
@@ -320,7 +320,7 @@ def pay(till, cents, deadline):
             return response.receipt
         time.sleep(max(0, min(pause, over - time.time())))
 
-# %% 12.3 wrong: no pause after a TimeoutError | hint: There was no pause after a TimeoutError
+# %% 12.3 wrong: does not pause after a TimeoutError | hint: There was no pause after a TimeoutError
 based_on("uses a loop with a clock")
 replace("                raise\n", "                raise\n            if isinstance(error, TimeoutError):\n                continue\n")
 # %% 12.3 wrong: treats a bad return value as a refusal | hint: An error that contains "handler returned" is not a refusal, because the handler has

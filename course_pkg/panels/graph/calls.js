@@ -1,4 +1,5 @@
-/* The lines of calls, from the caller to the service. This code, and not graphviz, draws the lines. */
+/* The lines of calls, from the caller to the service. This code draws the lines; graphviz does not draw
+   them. */
 
 const SVG = "http://www.w3.org/2000/svg";
 // Each bend is a fraction of the length of the line; the code uses the bend that crosses the fewest shapes.
