@@ -286,7 +286,7 @@ replace("Float64", "String")
 replace("publish(value)", "publish(str(value))")
 # %% 02.3 wrong: publishes each new value twice | hint: A value was published twice
 replace("self.publisher.publish(value)", "self.publisher.publish(value)\n            self.publisher.publish(value)")
-# %% 02.3 wrong: does not publish the second value | hint: A changed value was not published
+# %% 02.3 wrong: publishes no new value while a subscriber is connected | hint: A changed value was not published
 replace("if value != self.value:", "if self.value is None or value != self.value and not self.publisher.get_num_connections():")
 # %% 02.3 wrong: never publishes an earlier value again | hint: A changed value was not published
 replace("self.value = None", "self.values = []")

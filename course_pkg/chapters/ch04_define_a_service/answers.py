@@ -406,7 +406,7 @@ replace("known", "lit")
 replace(" if lit else [0, 0, 0]", "")
 # %% 04.5 wrong: forgets the colour | hint: rgb is 0, because a
 replace("rgb=rgb, ", "")
-# %% 04.5 wrong: returns the number of the seconds' values | hint: total is the number of
+# %% 04.5 wrong: returns the number of values as the total | hint: total is the number of
 replace("total=sum", "total=len")
 # %% 04.5 wrong: returns the ColorRGBA object | hint: error processing request
 replace("rgb=rgb", "rgb=request.colour")

@@ -272,7 +272,7 @@ def move(switch, to_open):
     rospy.ServiceProxy(f"{switch}/toggle", Trigger)()
     return "moved" if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted else "failed"
 
-# %% 08.3 wrong: calls only toggle, and only if the report differs | hint: The function did not call `set`.
+# %% 08.3 wrong: calls set only if the report differs | hint: The function did not call `set`.
 based_on("calls toggle")
 replace('"{switch}/toggle", Trigger)()', '"{switch}/set", SetBool)(to_open)')
 # %% 08.3 wrong: repeats until success is True | hint: The function called `set` more than

@@ -122,7 +122,7 @@ replace('Rate(2)', 'Rate(10)')
 replace('rate.sleep()', 'rospy.sleep(2)')
 # %% 09.2 wrong: publishes only three times | hint: The program reached its last line and ended
 replace('while not rospy.is_shutdown():', 'for _ in range(3):')
-# %% 09.2 wrong: publishes nothing before a call | hint: No velocity arrived for 4 s
+# %% 09.2 wrong: publishes nothing | hint: No velocity arrived for 4 s
 replace('        publisher.publish(message)\n', '        if not forward and rospy.get_time() < 0:\n            publisher.publish(message)\n')
 # %% 09.2 wrong: creates the service after the loop | hint: Create the service before the loop begins
 replace('    rospy.Service("toggle_forward", Empty, handle_toggle)\n', '')

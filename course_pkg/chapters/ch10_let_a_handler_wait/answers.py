@@ -630,7 +630,7 @@ replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1
 replace("self.cents).receipt", "100 * self.cents).receipt")
 # %% 10.5 wrong: does not call the till | hint: The till was not called
 replace("rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt", "uuid.uuid4()")
-# %% 10.5 wrong: returns a sentence instead of the receipt's number | hint: The message of /left is wrong
+# %% 10.5 wrong: returns a sentence in /left instead of the number | hint: The message of /left is wrong
 replace("message=str(self.shelf.read())", 'message=f"{self.shelf.read()} are left"')
 # %% 10.5 wrong: omits success | hint: The till has taken the money, but `success` is False
 replace("success=True, message=str(receipt)", "message=str(receipt)")
@@ -751,7 +751,7 @@ replace("with target.lock:\n        with source.lock:", """with source.lock:
 replace("return True", "return True\n        finally:\n            target.lock.release()")
 # %% 10.6 wrong: does not add to the target shelf | hint: The total number of things changed
 replace("\n        target.count += 1", "")
-# %% 10.6 wrong: moves in the wrong direction | hint: The counts after the call are wrong
+# %% 10.6 wrong: moves two things | hint: The counts after the call are wrong
 replace("source.count -= 1", "source.count, target.count = source.count - 2, target.count + 1")
 # %% 10.6 wrong: checks the number before it has the locks | hint: The function read a count before it held both locks, so another thread can
 replace("    first, second", "    if source.count == 0:\n        return False\n    first, second")
@@ -778,21 +778,21 @@ causes.update(zip("ABC", ["lock across a call", "lock order", "no limit"]))
 # %% 10.7 wrong: exchanges A and B | hint: The cause "lock order" means that two threads … Follow the calls from thread to thread
 replace('"A": "lock across a call"', '"A": "lock order"')
 replace('"B": "lock order"', '"B": "lock across a call"')
-# %% 10.7 wrong: names a lock during a call instead of a wrong lock order | hint: The cause "lock across a call" means … Each of the two threads holds the lock of one shelf and
+# %% 10.7 wrong: gives "lock across a call" instead of "lock order" | hint: The cause "lock across a call" means … Each of the two threads holds the lock of one shelf and
 replace('"lock order"', '"lock across a call"')
 # %% 10.7 wrong: exchanges C and E | hint: The cause "no notify" means that a thread sleeps although an item is there … The clients have ended, but the number of waiting threads still grows
 replace('"C": "no limit"', '"C": "no notify"')
 replace('"E": "no notify"', '"E": "no limit"')
-# %% 10.7 wrong: names a missing time limit instead of a missing notify | hint: The cause "no limit" means that a wait never ends, even after the client … The item came after two seconds, but the handler returned only when
+# %% 10.7 wrong: gives "no limit" instead of "no notify" | hint: The cause "no limit" means that a wait never ends, even after the client … The item came after two seconds, but the handler returned only when
 replace('"no notify"', '"no limit"')
 # %% 10.7 wrong: exchanges D and F | hint: The cause "no loop" means that a thread continues after it has woken up, … Only the returned numbers are wrong
 replace('"D": "race"', '"D": "no loop"')
 replace('"F": "no loop"', '"F": "race"')
-# %% 10.7 wrong: names a race instead of a missing loop | hint: In a race, no thread waits … Only one item came, but several threads woke up, and each of them took
+# %% 10.7 wrong: gives "race" instead of "no loop" | hint: In a race, no thread waits … Only one item came, but several threads woke up, and each of them took
 replace('"no loop"', '"race"')
 # %% 10.7 wrong: omits a case | hint: The answer for a case is missing
 replace('\n    "F": "no loop",', "")
-# %% 10.7 wrong: uses small letters | hint: as strings with capital letters
+# %% 10.7 wrong: uses a small letter as a key | hint: as strings with capital letters
 replace('"A"', '"a"')
-# %% 10.7 wrong: uses another text | hint: Copy the names from the list of causes
+# %% 10.7 wrong: uses another text for a cause | hint: Copy the names from the list of causes
 replace('"race"', '"data race"')

@@ -664,7 +664,7 @@ replace("with turn:\n        prices[request.item] = request.cents\n        retur
 replace("\n    with turn:\n        return sum(prices.values()), len(prices)", "\n    return sum(prices.values()), len(prices)")
 # %% 15.8 wrong: uses a persistent connection to the printer | hint: The printer was started again, but the till still refuses
 replace('("print_line", PrintLine)', '("print_line", PrintLine, persistent=True)')
-# %% 15.8 wrong: refuses after an early failure of the printer | hint: The till refused an item although the printer works
+# %% 15.8 wrong: refuses every item | hint: The till refused an item although the printer works
 replace('        print_line(f"{request.item} {request.cents}")\n', '        raise rospy.ServiceException("print_line is unavailable")\n')
 
 # %% 15.9 right: clears the dict
