@@ -122,7 +122,7 @@ class SelectionPlugin:
             self._selection.store()
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        """For each failed test, print the command that runs this test again."""
+        """Print, for each failed test, the command that runs this test again."""
         failed = [*terminalreporter.getreports("failed"), *terminalreporter.getreports("error")]
         names = dict.fromkeys(report.nodeid.split("@")[0] for report in failed)
         if names:

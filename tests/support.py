@@ -57,7 +57,7 @@ def stopped(pid: int) -> Iterator[None]:
 def process_state(pid: int) -> str:
     """Return the letter with which ps shows the state of a process.
 
-    For a process that has exited, return "Z".
+    If the process has exited, return "Z".
     """
     return _state(Path(f"/proc/{pid}/stat"))
 

@@ -131,7 +131,7 @@ def test_reports_from_records(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"student": "s01"}', '"x"'])
 def test_invalid_record(tmp_path: Path, content: str) -> None:
-    """For an invalid record, the error message contains the file name, but not the student's name."""
+    """If a record is invalid, the error message contains the file name, but not the student's name."""
     path = record_path(tmp_path, "s01", "05")
     path.parent.mkdir(parents=True)
     path.write_text(content)

@@ -310,7 +310,7 @@ def test_a_list_of_students(
     ],
 )
 def test_a_list_that_cannot_be_used_is_refused(text: str, said: str, tmp_path: Path) -> None:
-    """For a wrong list, the error message contains the line number, but no student's name."""
+    """If the list of students is wrong, the error message contains the line number, but no student's name."""
     path = tmp_path / "students.csv"
     path.write_text(text, "utf-8", "surrogateescape")
     with pytest.raises(HandoutError, match=said):

@@ -176,7 +176,7 @@ def test_the_link_for_nbgitpuller() -> None:
     ("hub", "repository"), [("hub.example.edu", REPOSITORY), (HUB, "git@git.example.edu:a/b")]
 )
 def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository: str) -> None:
-    """For a wrong URL, the error message contains the option, and says that a URL begins with https://."""
+    """If a URL is wrong, the error message contains the option, and says that a URL begins with https://."""
     with pytest.raises(HandoutError, match=r"--(hub|repository) .* begins with https://"):
         pull_link(hub, repository, "main", "x.ipynb")
 

@@ -136,7 +136,7 @@ def test_the_readme_is_for_students(edition: Path) -> None:
     ],
 )
 def test_what_needs_the_solutions_says_so_in_one_message(edition: Path, words: list[str]) -> None:
-    """For a command that needs solutions, the error message contains "students' edition"."""
+    """If a command needs solutions, its error message contains "students' edition"."""
     nowhere = {**os.environ, "XDG_CACHE_HOME": "/proc/nowhere"}
     done = subprocess.run(
         [edition / "course", *words], env=nowhere, capture_output=True, text=True, check=False

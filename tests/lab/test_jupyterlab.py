@@ -192,7 +192,7 @@ def test_a_killed_server_ends_the_command(notebook: str) -> None:
     ],
 )
 def test_wrong_options_are_refused_at_once(words: list[str], message: str) -> None:
-    """For a wrong option, `course lab` prints the reason and exits with status 1."""
+    """If an option is wrong, `course lab` prints the reason and exits with status 1."""
     with socket.socket() as busy:
         busy.bind(("127.0.0.1", 0))
         busy.listen()

@@ -48,7 +48,7 @@ def test_rossrv_show() -> None:
 
 @pytest.mark.parametrize("words", [[], ["1", "2"], ["1", "2", "3", "4"], ["1", "2", "tall"]])
 def test_client_with_a_wrong_line(words: list[str]) -> None:
-    """For wrong arguments, the client prints its usage, and its exit status is 2."""
+    """If the arguments are wrong, the client prints its usage, and its exit status is 2."""
     done = terminal("rosrun", "course_pkg", "client", *words)
     assert done.returncode == 2
     assert done.stderr.startswith("usage: client LENGTH WIDTH HEIGHT")

@@ -56,7 +56,7 @@ def test_a_measurement_is_drawn_first() -> None:
 
 @pytest.mark.parametrize("name", ["speed", "/", "/a//b", "/my speed", "~speed", "/1", "/a\nb", ""])
 def test_an_invalid_name_is_refused(name: str) -> None:
-    """For an invalid topic name, the error message describes valid names."""
+    """If the topic name is invalid, the error message describes valid names."""
     with pytest.raises(NotATopic, match="Use a full name"):
         FakeProcess(topic=name)
 

@@ -216,7 +216,7 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
 
 
 def test_a_search_without_results_shows_a_message(browser: Browser, course: Path) -> None:
-    """For a search without results, the message contains the search term; Escape closes the dialog."""
+    """If a search finds nothing, the message contains the search term; Escape closes the dialog."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()

@@ -69,7 +69,7 @@ def test_the_header_names_the_types_of_request_and_response(
 
 
 def test_a_failed_call_sends_an_empty_error_message(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """For a failed call, the server sends the byte 0 (no success) and an empty error message."""
+    """If a call fails, the server sends the byte 0 (no success) and an empty error message."""
     sock, _ = connected(master, "/kill", service="/kill", md5sum=Kill._md5sum)
     with sock:
         sock.sendall(request(Kill._request_class("nobody")))
@@ -99,7 +99,7 @@ def test_a_persistent_connection_takes_one_request_after_another(
 def test_a_wrong_header_is_answered(
     master: PrivateMaster, simulator: NodeProcess, fields: dict[str, str], words: str
 ) -> None:
-    """For a wrong header, the field `error` of the server's header contains roscpp's error message."""
+    """If a header is wrong, the field `error` of the server's header contains roscpp's error message."""
     sock, header = connected(master, "/kill", **fields)
     sock.close()
     assert words in header["error"]

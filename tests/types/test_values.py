@@ -144,7 +144,7 @@ def test_errors_name_the_path(refusal: Callable[..., FieldError]) -> None:
 
 
 def test_a_fixed_array_wants_its_length(refusal: Callable[..., FieldError]) -> None:
-    """For an array of fixed length, the error message contains the given and the expected length."""
+    """If an array of fixed length is wrong, the error message contains the given and the expected length."""
     error = refusal(three=[1, 2])
     assert "2 elements were given" in str(error)
     assert "exactly 3" in error.allowed

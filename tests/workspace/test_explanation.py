@@ -323,7 +323,7 @@ def test_unknown_output_has_no_explanation(text: str) -> None:
 
 
 def test_unknown_message_is_quoted() -> None:
-    """For an unknown message, the problem is one line, and the position is in the student's package."""
+    """If a message is unknown, the problem is one line, and the position is in the student's package."""
     fault = explain(
         "-- Configuring\n\x1b[31mCMake Error at /usr/share/x/y.cmake:3 (message):\n  Something about\n"
         "  /home/me/ws/src/a/b.txt is\n  wrong.\nCall Stack (most recent call first):\n"

@@ -55,7 +55,7 @@ def test_without_a_notebook_each_part_is_listed_without_points(tmp_path: Path) -
 
 @pytest.mark.parametrize("case", NOBODY)
 def test_a_file_that_cannot_be_graded_has_a_message(tmp_path: Path, case: str) -> None:
-    """For a file that is not a notebook, the output contains the file's name."""
+    """If the submitted file is not a notebook, the output contains the file's name."""
     name, content = NOBODY[case]
     results = graded(tmp_path, {name: content})
     assert results["score"] == 0

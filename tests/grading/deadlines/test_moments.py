@@ -43,7 +43,7 @@ def test_the_forms(written: str, utc: str) -> None:
     "written", ["", "-", "tomorrow", "2026-11-01", "2026-13-01 10:00", "1 Foo 2026, 10:00"]
 )
 def test_no_time(written: str) -> None:
-    """For a text that is not a time, the result is None."""
+    """If a text is not a time, the result is None."""
     assert moment_of(written, BERLIN) is None
 
 

@@ -149,7 +149,7 @@ def test_the_table_of_collected_files(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_table_of_times(tmp_path: Path, text: str, said: str) -> None:
-    """For a wrong table, the error message contains the line number, but no student's name."""
+    """If the table is wrong, the error message contains the line number, but no student's name."""
     table = tmp_path / "times.csv"
     table.write_text(text, "utf-8")
     with pytest.raises(GradingError, match=said) as caught:

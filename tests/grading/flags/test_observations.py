@@ -151,6 +151,6 @@ def test_programs_that_are_hard_to_read() -> None:
 
 
 def test_a_program_that_is_too_long() -> None:
-    """For a program that is too long, the instructor gets a message."""
+    """If a program is too long for the search, the instructor gets a message."""
     (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": "x = 1\n" * 5000}))["s01"]
     assert flag.words == "The code is too long, so it was not searched for suspicious lines."

@@ -137,7 +137,7 @@ def test_cells_identify_the_chapter(tmp_path: Path, five: bytes, name: str) -> N
 
 
 def test_notebook_without_exercises(tmp_path: Path) -> None:
-    """For a notebook without exercises, the ids of the other cells identify the chapter."""
+    """If a notebook contains no exercises, the ids of its other cells identify the chapter."""
     notebook = handed_out("05")
     notebook["cells"] = [cell for cell in notebook["cells"] if "course" not in cell["metadata"]]
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(notebook)}))
@@ -274,7 +274,7 @@ BAD = {
 
 @pytest.mark.parametrize(("content", "words"), BAD.values(), ids=BAD)
 def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None:
-    """For an unreadable file, the error message contains the file name and what to do next."""
+    """If a file is unreadable, the error message contains the file name and what to do next."""
     for source in (
         folder(tmp_path / "a", {f"s01/{FIVE}": content}),
         zipped(tmp_path / "a.zip", {f"s01/{FIVE}": content}),
@@ -336,7 +336,7 @@ def test_pipe_is_not_opened(tmp_path: Path) -> None:
 
 
 def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """For a file without read permission, the error message asks the instructor to change the permissions."""
+    """If a file cannot be read, the error message asks the instructor to change the file's permissions."""
 
     def refuse(*_: object) -> int:
         raise PermissionError(13, "Permission denied")

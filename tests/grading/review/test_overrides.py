@@ -32,7 +32,7 @@ def _read(folder: Path, content: str | bytes) -> None:
 
 @pytest.mark.parametrize(("row", "message"), WRONG)
 def test_a_wrong_row_is_reported_with_its_line(tmp_path: Path, row: str, message: str) -> None:
-    """For a wrong row, the error message contains the line number, and overrides.csv does not change."""
+    """If a row is wrong, the error message contains the line number, and overrides.csv does not change."""
     with pytest.raises(GradingError) as caught:
         _read(tmp_path, HEAD + row)
     assert message in str(caught.value)

@@ -99,7 +99,7 @@ def test_the_command_explains_what_is_wrong(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["student,part\n", "\xff"])
 def test_a_wrong_file_stops_the_review(tmp_path: Path, content: str) -> None:
-    """For a wrong overrides.csv, the error message contains the line number, and the file does not change."""
+    """If overrides.csv is wrong, the error message contains the line number, and the file stays unchanged."""
     out = write_class(tmp_path / "grades")
     (out / "overrides.csv").write_bytes(content.encode("latin-1"))
     assert "line 1" in _refused(out)

@@ -85,7 +85,7 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
     ],
 )
 def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """For a wrong roster, the error message contains the mistake and its line, but no cell of the file."""
+    """If the roster is wrong, the error message contains the mistake and its line, but no cell."""
     with pytest.raises(GradingError, match=message) as caught:
         read_roster(_file(tmp_path, content))
     assert "roster.csv" in str(caught.value)

@@ -95,7 +95,7 @@ def test_the_participants(
     ],
 )
 def test_a_file_that_moodle_would_refuse(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """For a wrong worksheet, the error message contains the mistake and its line, but no cell of the file."""
+    """If a worksheet is wrong, the error message contains the mistake and its line, but no cell."""
     with pytest.raises(GradingError, match=message) as caught:
         _read(tmp_path, content)
     assert "sheet.csv" in str(caught.value)

@@ -50,7 +50,7 @@ def test_workspace_is_found_without_sourcing() -> None:
 
 @pytest.mark.parametrize("uri", ["localhost:11311", "http://localhost", "http://localhost:port", "nonsense"])
 def test_malformed_uri(uri: str) -> None:
-    """For a malformed ROS_MASTER_URI, join() raises an error with an example."""
+    """If ROS_MASTER_URI is malformed, join() raises an error with an example."""
     with Kernel({"ROS_MASTER_URI": uri}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MalformedMasterUri"
@@ -129,7 +129,7 @@ def test_another_name_in_the_same_kernel(kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("name", ["", "1st", "two words", "a/b"])
 def test_illegal_name(kernel: Kernel, name: str) -> None:
-    """For an invalid name, join() raises an error."""
+    """If the name of the node is invalid, join() raises an error."""
     assert kernel.ask(f"from course_pkg.ros import join\njoin({name!r})").error == "NotJoined"
 
 

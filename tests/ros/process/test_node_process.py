@@ -27,7 +27,7 @@ pytestmark = pytest.mark.usefixtures("master")
     ],
 )
 def test_missing_program(package: str, program: str, message: str) -> None:
-    """For an unknown package or program, the error message contains similar names."""
+    """If a package or program is unknown, the error message contains similar names."""
     with pytest.raises(UnknownExecutable) as error:
         NodeProcess.rosrun(package, program)
     assert message in str(error.value)

@@ -143,7 +143,7 @@ def test_a_refusal_is_recorded_at_both_ends(asker: Kernel) -> None:
 
 
 def test_a_service_that_does_not_exist(asker: Kernel) -> None:
-    """For a call to an unknown service, the recording contains a look-up and an error."""
+    """If the service of a call is unknown, the recording contains a look-up and an error."""
     recording = recorded(asker, "with node.record() as recording:\n    called('/nope', Trigger)")
     assert kinds(recording, "call 1") == ["lookup", "error"]
     assert (recording.events[1].peer, "unavailable" in recording.events[1].note) == ("", True)
