@@ -15,12 +15,12 @@ DATA = ".course"
 
 
 def version_folder(checkout: Path) -> Path | None:
-    """Return the installed version that contains `checkout`, or None if `checkout` is not installed."""
+    """Return the installed version that contains the checkout, or None if the checkout is not installed."""
     return checkout.parent if (checkout.parent / RECORD).is_file() else None
 
 
 def own_folder(checkout: Path) -> Path:
-    """Return the folder with the user's notebooks and `workspace`: `checkout`, if this is not installed.
+    """Return the folder with the user's notebooks and workspace: the checkout, unless it is installed.
 
     For a shared installation, the result is the folder in the variable COURSE_HOME, or ~/ros-course.
     """

@@ -95,5 +95,5 @@ class Finished:
         # s for which the command waited for a CPU.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0
-        # The waiting time is infinity if the kernel did not send a waiting time.
+        # If the kernel did not send a waiting time, the waiting time is infinite.
         self.queued = queued if isinstance(queued, float) else math.inf

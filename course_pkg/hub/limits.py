@@ -16,7 +16,7 @@ MIB = 1 << 20
 
 
 class Limits(NamedTuple):
-    """What one student may use: `memory` is in MiB; `processes` is the number of processes and threads."""
+    """The limits of one student: `memory` is in MiB; `processes` is the number of processes and threads."""
 
     memory: int
     processes: int

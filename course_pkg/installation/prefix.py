@@ -13,7 +13,8 @@ from course_pkg.files import write_atomically
 from course_pkg.installed import RECORD
 
 DEFAULT = Path("/opt/ros-services-course")
-OURS = ".course-installation.json"  # marks a prefix that `course install` made, and stores its `bin`
+# This file marks a prefix that `course install` made, and stores the path of its `bin`.
+OURS = ".course-installation.json"
 COMPLETION = "completion.bash"
 
 
@@ -77,7 +78,7 @@ class Prefix:
             _link(link, target)
 
     def remove_unused(self, kept: set[Path]) -> list[Path]:
-        """Remove all versions that are not in `kept` and that no process uses.
+        """Remove all versions that no process uses, except the versions in `kept`.
 
         Return the versions that a process still uses.
         """

@@ -22,7 +22,7 @@ GOOD, ERROR, ERROR_WASH = "#18713a", "#ae1f1f", "#fdefee"
 SANS = "Arial, Helvetica, 'Liberation Sans', sans-serif"
 MONO = "Menlo, Consolas, 'DejaVu Sans Mono', monospace"
 
-WIDTH = 760.0  # px
+WIDTH = 760.0  # The width is in px.
 EDGES = 16.0  # distance in px between the border of the picture and its content
 SIZE, SMALL = 13.0, 12.0  # font sizes in px
 LEADING = 1.5  # height of a line divided by the font size
@@ -222,7 +222,7 @@ def prose(text: str) -> str:
 
 
 def cut(text: str, style: Style, width: float) -> str:
-    """Return the text; if it is wider than `width` px, shorten the text, and end it with an ellipsis."""
+    """Return the text; if it is wider than the width (px), shorten the text, and end it with an ellipsis."""
     if style.width(text) <= width:
         return text
     while text and style.width(text + "…") > width:
@@ -231,7 +231,7 @@ def cut(text: str, style: Style, width: float) -> str:
 
 
 def wrapped(text: str, style: Style, width: float) -> list[str]:
-    """Split a text into lines of at most `width` px.
+    """Split a text into lines; `width` is the maximum width of a line in px.
 
     Each line has the same indentation as the paragraph in `text` to which the line belongs.
     """

@@ -70,7 +70,7 @@ class Progress:
                 self._write("\r\033[K")
 
     def advance(self, count: int = 1, *, kept: bool = False) -> None:
-        """Add `count` to the finished items.
+        """Add `count` to the number of finished items.
 
         If `kept` is true, an earlier run of the program has finished the items, so they take no time.
         """

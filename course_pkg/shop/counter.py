@@ -31,8 +31,8 @@ class Counter:
     def let_in(self, now: float, after: Sequence[float], stay: float) -> list[Visit]:
         """Plan a visit for each delay in `after`, and return the new visits.
 
-        A delay is a time in s from `now` until a customer comes; `stay` is the length of each visit in s.
-        Visits that earlier calls have planned for the future are removed. Raises FieldError for invalid
+        A delay is a time in s from the time `now` until a customer comes; `stay` is the length of each visit
+        in s. Visits that earlier calls have planned for the future are removed. Raises FieldError for invalid
         times; in this case, the visits do not change.
         """
         if len(after) > MOST:

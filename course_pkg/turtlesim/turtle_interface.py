@@ -135,7 +135,7 @@ class _Writer:
         self._room.register(connection.socket, select.POLLOUT)
 
     def __call__(self, data: bytes) -> bool:
-        """Write `data`; if the send buffer has no space, drop `data`.
+        """Write the bytes `data`; if the send buffer has no space, drop them.
 
         Raises rospy's error if the connection is broken.
         """

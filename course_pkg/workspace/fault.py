@@ -25,7 +25,7 @@ class Fault:
 
     @property
     def place(self) -> str:
-        """Return the file and line, such as "my_services/CMakeLists.txt, line 6"; "" for an unknown file."""
+        """Return the file and line, such as "my_services/CMakeLists.txt, line 6", or "" without a file."""
         return f"{self.file}, line {self.line}" if self.line else self.file
 
     def __str__(self) -> str:

@@ -53,7 +53,7 @@ class CommandFolders:
         return {"folder": len(self._folders) - 1}
 
     def run(self, argv: Sequence[str], folder: int, within: float) -> Reply:
-        """Run a command for at most `within` s."""
+        """Run a command; the time limit is `within` (s)."""
         return _finished(_command(argv), self._folders[folder], within)
 
     def start(self, argv: Sequence[str], folder: int) -> Reply:

@@ -40,7 +40,7 @@ class Silence:
 
 @dataclass(frozen=True)
 class Late:
-    """Respond with `values` after `delay` s."""
+    """Wait for the time `delay` (s), and then respond with the values `values`."""
 
     delay: float
     values: Mapping[str, Value]

@@ -95,7 +95,7 @@ class LateTable:
 
 
 def late_table(path: Path) -> LateTable:
-    """Return the table in the CSV file at `path`, with the columns student,days or student,chapter,days."""
+    """Return the table in a CSV file with the columns student,days or student,chapter,days."""
     lines = table_rows(path, "table of late days")
     head = [name.strip().lower() for name in lines[0]] if lines else []
     if head not in COLUMNS:

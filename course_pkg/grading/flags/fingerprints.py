@@ -1,4 +1,4 @@
-"""Fingerprints of code: features that do not depend on names, comments and the order of statements.
+"""Fingerprints of code: features that do not depend on names, on comments, or on the order of statements.
 
 There are three kinds of features. The first is a statement, with the block that contains it. The second is a
 pair of statements: one sets a name, and the other uses this name. The third is the set of all statements of a

@@ -38,7 +38,7 @@ OWN_CODE = 15
 # One answer is also enough to flag a pair if the two answers have at least OWN_WORDS comments, strings or
 # names in common that at most one other student has.
 OWN_WORDS = 3
-MARGIN = 1.0  # bits
+MARGIN = 1.0  # The margin is in bits.
 NOTHING = Fingerprint(0)
 Couple = tuple[int, int]
 

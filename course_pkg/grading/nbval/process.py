@@ -65,13 +65,13 @@ def main() -> None:
 
 
 def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
-    """Run `command`.
+    """Run the command `command` with limits for its memory and its progress.
 
     Kill the processes of the command if they use too much memory, or if the file `record` does not grow for
-    `silence` s.
+    the time `silence` (s).
 
-    Returns True if `record` did not grow for `silence` s. Without this limit, nbval would wait for ever if
-    the connections of a kernel are damaged.
+    Returns True if the processes were killed because the file did not grow. Without this limit, nbval would
+    wait for ever if the connections of a kernel are damaged.
     """
     size, deadline = 0, Deadline(silence)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:

@@ -18,8 +18,8 @@ from typing import NoReturn
 from course_pkg.sandbox.linux import namespaces
 
 ENTER = "nsenter"  # a program of util-linux
-# Each key is a number of file descriptors of a graph. Each value contains the kinds of the namespaces that
-# they refer to.
+# Each key is the number of file descriptors that a graph has. The value contains the kind of namespace to
+# which each of these descriptors refers.
 KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}
 
 
@@ -50,7 +50,7 @@ def enter(files: Sequence[int]) -> None:
 
 
 def entering(files: Sequence[int]) -> list[str]:
-    """Return a prefix for a command line; the prefix runs the command in the namespaces of `files`.
+    """Return a prefix for a command line; the prefix runs the command in these namespaces.
 
     `files` contains file descriptors. The prefix works only while this process keeps them open.
     """

@@ -204,7 +204,7 @@ def _draw_legend(paper: Paper) -> None:
 
 
 def ticks(length: float, most: int = TICKS) -> Sequence[tuple[float, str]]:
-    """Return the positions and the texts of the marks on an axis from 0 to `length`."""
+    """Return the positions and the texts of the marks on an axis that begins at 0 and ends at `length`."""
     if length <= 0:
         return [(0.0, "0")]
     ten = 10.0 ** math.floor(math.log10(length / most))

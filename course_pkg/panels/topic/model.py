@@ -38,7 +38,7 @@ ACTIONS = ("publish", "burst", "repeat")
 class About(TypedDict, total=False):
     """The topic, and the fields of its type; the page can plot the numeric fields.
 
-    `problem` is the reason that there is no form; it is empty if there is a form.
+    `problem` is the reason why there is no form, or "" if there is a form.
     """
 
     topic: str

@@ -152,5 +152,5 @@ class Reader:
 
 
 def shortened(text: str, most: int = TEXT) -> str:
-    """Return the text; a text with more than `most` characters is cut and ends with "…"."""
+    """Return the text; a text that is longer than `most` is cut and ends with "…"."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -62,7 +62,7 @@ class Cells:
         self._paused = 0
 
     def begin(self, cell: str | None, source: str = "") -> None:
-        """Begin a run of `cell`, and shut down the objects that the last run of this cell created."""
+        """Begin a run of the cell, and shut down the objects that the last run of this cell created."""
         if self._current is not None:
             self._depth += 1
             return

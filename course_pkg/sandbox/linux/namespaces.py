@@ -99,7 +99,7 @@ def mount_processes() -> None:
 
 
 def bind(source: str, target: str) -> None:
-    """Make `source`, with all mounts inside `source`, also visible at `target`."""
+    """Make the folder `source`, with all mounts inside it, also visible at the path `target`."""
     _mount(source, target, "", MS_BIND | MS_REC, "")
 
 

@@ -121,7 +121,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
 
 
 def _is_sent(context: CheckContext, server: ScriptedServer, sides: list[float]) -> None:
-    """Assert that the first request contains `sides`."""
+    """Assert that the first request contains the sides `sides`."""
     context.expect(
         "the request has length, width and height",
         expected=dict(zip(("length", "width", "height"), sides, strict=True)),

@@ -170,5 +170,5 @@ def _text(top: list[str], above: list[str], below: list[str]) -> str:
 
 
 def _slip(name: str) -> str:
-    """Return `name` with a different last letter."""
+    """Return the name `name` with a different last letter."""
     return name[:-1] + ("a" if name[-1] != "a" else "b")

@@ -34,7 +34,7 @@ NAMED = "Write the name and the value of the side in the error message."
     goals=[AREA, VOLUME],
 )
 def area_and_volume(context: CheckContext) -> None:
-    """Send boxes of several sizes; in each box but one, the three sides are different."""
+    """Send boxes of several sizes; in all boxes except one, the three sides are different."""
     get_geometry = context.service("/getGeometry", "course_pkg/geometry")
     require_served_by_notebook(context, "/getGeometry")
     for length, width, height in random_boxes(context):

@@ -15,7 +15,7 @@ KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "next"
 # A service that does not respond may delay the result by at most this many s; a correct function waits 1 s
 # for it.
 LONGEST = 1.75
-# If a service does not respond, the next service must not be called earlier than after this many s.
+# If a service does not respond, the next service must not be called before this many s have passed.
 SHORTEST = 0.9
 FIRST = "If the first service responds, return the volume in its response."
 NEXT = (
@@ -203,7 +203,7 @@ def ask_the_next_one(context: CheckContext) -> None:
 
 
 def _noted(times: list[float], act: Act) -> Script:
-    """Return a script that stores the time of each request in `times`, and returns `act`."""
+    """Return a script that stores the time of each request in the list `times`, and then returns `act`."""
 
     def script(_: Message) -> Act:
         times.append(time.monotonic())
@@ -257,7 +257,7 @@ _ERRORS: Hints = [
 
 
 def _first_of(context: CheckContext, names: Mapping[str, str], *kinds: str, hints: Hints = ()) -> Result:
-    """Run the student's function with a list of services; `kinds` contains the kind of each service."""
+    """Call the student's function with one service of each kind in `kinds`, such as "first"."""
     sides = context.random.numbers(3, 0.5, 9.0)
     services = [names[kind] for kind in kinds]
     return context.run("first_answer", services, *sides, within=3.0 + len(services), hints=hints or _ERRORS)

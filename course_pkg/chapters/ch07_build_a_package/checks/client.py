@@ -25,8 +25,8 @@ WAITED = re.compile("waiting for service|unavailable")  # rospy's error messages
 # A run of the client may take this many s: rospy needs 0.5 s to start (5 s on a busy machine), and the client
 # waits up to 5 s.
 WITHIN = 16.0
-# Without a server, the client has to end within WAITING s and SLOWER times the time of its fastest run with
-# wrong arguments, which shows how long a start takes now.
+# Without a server, the client has to end within WAITING s plus SLOWER times the duration of its fastest run
+# with wrong arguments. This duration shows how long a start takes on this machine now.
 WAITING, SLOWER = 7.0, 1.5
 
 START = f"""%%writefile {FILE}
@@ -239,7 +239,7 @@ def _run(package: BuiltPackage, arguments: list[str]) -> Finished:
 
 
 def _printed(done: Finished, name: str) -> float | None:
-    """Return the number in the output line that begins with `name`, such as "area: 6.24", or None."""
+    """Return the number in an output line such as "area: 6.24", or None; `name` is the word in the line."""
     found = re.search(rf"(?m)^\s*{name}:\s*(-?\d+\.\d\d)\s*$", done.out)
     return float(found[1]) if found else None
 

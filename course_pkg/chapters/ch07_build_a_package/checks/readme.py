@@ -13,7 +13,8 @@ from course_pkg.workspace.fault import without_comments
 
 FILE = MY_GEOMETRY.path("README.md")
 BLOCK = re.compile(r"^[ \t]*(?:```|~~~)[^\n`]*\n(.*?)^[ \t]*(?:```|~~~)", re.DOTALL | re.MULTILINE)
-PRINTED = re.compile(r"#|:\s|(?:echo|printf|true)\b")  # The shell executes no command in these lines.
+# The shell executes no command in lines that match this pattern.
+PRINTED = re.compile(r"#|:\s|(?:echo|printf|true)\b")
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)"
 FIELD = rf"\w+: *{NUMBER}"
 CALL = re.compile(

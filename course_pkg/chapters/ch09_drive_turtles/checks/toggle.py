@@ -129,7 +129,7 @@ def _counts_each_call(toggle: Service, stream: Stream, many: int) -> None:
 def toggles_the_stream(
     toggle: Service, stream: Stream, times: int = 1, straight: tuple[float, float] = STRAIGHT
 ) -> None:
-    """Toggle the direction to turning, and back to straight ahead; repeat this `times` times."""
+    """Toggle the direction to turning and back to straight ahead; `times` is the number of repetitions."""
     for _ in range(times):
         toggle()
         stream.becomes(TURNING, ONE_CALL, TOGGLED)

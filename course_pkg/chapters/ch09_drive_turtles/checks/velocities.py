@@ -49,7 +49,10 @@ class Stream:
         )
 
     def next(self, count: int, within: float = SILENCE) -> list[Arrival]:
-        """Return the next `count` messages; assert that each message arrives within `within` s."""
+        """Return the next `count` messages; assert that each message arrives in time.
+
+        The maximum time until a message arrives is `within` (s).
+        """
         before = len(self._subscription.arrivals)
         for number in range(before + 1, before + count + 1):
             if len(self._subscription.wait(number, within)) < number:

@@ -27,7 +27,8 @@ SELDOM = 8
 LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
 
 USED = 0.3  # In LONG s, the kernel may use this many s of processor time.
-PROMPT = 0.45  # In the best of ATTEMPTS calls, the response has to come this many s after the customer.
+# In the fastest of ATTEMPTS calls, the response has to come at most this many s after the customer.
+PROMPT = 0.45
 ATTEMPTS = 3
 
 SINCE_WHEN = "the field `arrived` is the time at which the customer came"

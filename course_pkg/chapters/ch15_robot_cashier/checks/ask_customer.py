@@ -184,7 +184,7 @@ class Run:
 
 
 class _Detector:
-    """A detector that finds a customer only if `patience` is equal to `wait`.
+    """A detector that finds a customer only if the request's `patience` is equal to the attribute `wait`.
 
     The detector refuses a call if `patience` is REFUSED.
     """

@@ -53,7 +53,8 @@ SERVICES = {
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
 SYSTEM = "roslaunch starts the whole system"
-VISITS = 2  # After the restart, the check lets up to this many customers come, until one is greeted.
+# After the restart, the check lets up to this many customers come, until the cashier greets one of them.
+VISITS = 2
 MANY = 6  # MANY is the number of simultaneous calls of till/set.
 
 NOT_LAUNCHED = (
@@ -363,7 +364,7 @@ class Shop:
 
 
 def _waits_briefly(context: CheckContext, delay: float) -> None:
-    """Report a failure if roslaunch waits for `delay` s before a restart, and this is too long.
+    """Report a failure if `delay`, the time in s before roslaunch restarts a node, is too long.
 
     On a busy machine, the deadline for the restart is longer than BACK, so the check also reads the file.
     """

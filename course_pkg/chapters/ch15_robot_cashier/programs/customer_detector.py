@@ -1,6 +1,6 @@
 """The node `customer_detector`: waits for a customer at the counter, and returns whether there is one.
 
-The node subscribes to `customer_seen` (std_msgs/Bool), and serves `detect_customer`
+The node subscribes to the topic `customer_seen` (std_msgs/Bool), and serves the service `detect_customer`
 (course_pkg/AwaitCustomer). A call waits for a customer; the request contains the maximum waiting time.
 """
 

@@ -64,7 +64,7 @@ class Robot:
 
 
 def started(context: CheckContext, folder: Folder, *arguments: str) -> Robot:
-    """Start the student's program with `arguments`, in a random namespace, and with a random node name."""
+    """Start the student's program with the arguments, in a random namespace, and with a random node name."""
     space, node = f"/{context.random.word()}", context.random.word()
     line = ["python", FILE, f"__ns:={space}", f"__name:={node}", *arguments]
     return Robot(folder.start(*line, worded=f"python3 {FILE}"), space, f"{space}/{node}")
