@@ -128,9 +128,10 @@ def folder_of(chapter: str) -> Path:
 
 
 def folders_for(chapter: str) -> list[Path]:
-    """Return, sorted, the folder of a chapter, such as "14", and the folders of the chapters that it imports.
+    """Return the folder of a chapter, such as "14", and the folders of the chapters that it imports.
 
-    Chapters that are imported indirectly are included. For an unknown chapter, the list is empty.
+    The list is sorted, and includes the chapters that are imported indirectly. For an unknown chapter, the
+    list is empty.
     """
     modules, found, new = _modules(), set[str](), {chapter}
     while new := (new & modules.keys()) - found:

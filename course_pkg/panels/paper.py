@@ -27,8 +27,8 @@ EDGES = 16.0  # distance in px between the border of the picture and its content
 SIZE, SMALL = 13.0, 12.0  # font sizes in px
 LEADING = 1.5  # height of a line divided by the font size
 MONO_LETTER = 0.61  # width of a letter of the monospaced font divided by the font size
-# Widths of letters divided by the font size. The font is DejaVu Sans, because a viewer of the picture may use
-# this font, and the other possible fonts are narrower.
+# This dict contains the widths of letters, divided by the font size. The font is DejaVu Sans, because a
+# viewer of the picture may use this font, and the other possible fonts are narrower.
 WIDTHS = {
     **dict.fromkeys("iljI'|.,:; ", 0.32),
     **dict.fromkeys('frt()[]/`-!"', 0.41),

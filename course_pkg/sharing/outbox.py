@@ -13,7 +13,7 @@ from course_pkg.state import state_folder, write_json
 
 FOLDER = "class-outbox"
 LONGEST_HINT = 500  # The length is in characters.
-LARGEST = 20_000  # maximum size of a file in bytes; `put` writes fewer bytes
+LARGEST = 20_000  # maximum size of a file in bytes; the method `put` writes smaller files
 KEPT = 30 * 86_400  # time in s after which an unsent result is deleted
 
 

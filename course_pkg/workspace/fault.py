@@ -1,4 +1,4 @@
-"""A fault in a package; the functions find the line of a fault even in an invalid package.xml."""
+"""Describes a fault in a package, and finds the line of a fault, even in an invalid package.xml."""
 
 from __future__ import annotations
 

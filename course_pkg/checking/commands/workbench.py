@@ -39,7 +39,7 @@ class CommandFolders:
         self._running: list[_Running] = []
 
     def folder(self, files: Sequence[str], texts: Mapping[str, str]) -> Reply:
-        """Make a folder with copies of the student's files and folders, and with the check's `texts`."""
+        """Make a folder with copies of the student's files and folders, and with the check's own texts."""
         self._root = self._root or self._open.enter_context(temporary_folder("course-run-"))
         folder = self._root / str(len(self._folders))
         folder.mkdir()

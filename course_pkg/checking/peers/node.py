@@ -153,7 +153,8 @@ class FakeNode:
         self._node.master.unregister_publisher(self.name, self._topic, self._uri)
         if self._listener:
             with suppress(OSError):
-                self._listener.shutdown(socket.SHUT_RDWR)  # This call ends accept().
+                # This call makes the other thread's accept() raise an error.
+                self._listener.shutdown(socket.SHUT_RDWR)
             self._listener.close()
         if self._api:
             self._api.shutdown()

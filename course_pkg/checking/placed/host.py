@@ -73,7 +73,8 @@ class PlacedObjects:
             self._closed = True
             left = dict(self._open)
         with suppress(OSError):
-            self._listener.shutdown(socket.SHUT_RDWR)  # This call ends accept().
+            # This call makes the other thread's accept() raise an error.
+            self._listener.shutdown(socket.SHUT_RDWR)
         self._listener.close()
         for each in self._objects:
             if callable(close := getattr(each, "close", None)):

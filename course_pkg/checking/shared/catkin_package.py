@@ -23,8 +23,8 @@ BUILDS = "catkin_make builds the package"
 # The limits are the CPU time in s and the size of a file in KiB. A sandbox has separate limits for these
 # values.
 LIMITS = "ulimit -t 20 -f 60000 2> /dev/null"
-# The time limit of the build in s. A build takes 3 s of CPU time, or 6 s on a machine with two cores and a
-# load average of 9.
+# This is the time limit of the build in s. A build takes 3 s of CPU time, or 6 s on a machine with two cores
+# and a load average of 9.
 BUILD = 50.0
 OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"

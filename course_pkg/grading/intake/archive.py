@@ -22,7 +22,8 @@ from course_pkg.grading import clean
 
 LARGEST = 20 << 20  # LARGEST is the maximum number of bytes of one notebook.
 ALTOGETHER = 4 << 30  # ALTOGETHER is the maximum number of bytes of all unpacked notebooks in a zip.
-# Maximum compression ratio. A usual notebook has a compression ratio of 10, or of 100 with much repetition.
+# This is the maximum compression ratio of a file. A usual notebook has a compression ratio of 10, or of 100
+# with much repetition.
 RATIO = 400
 SMALL = 1 << 20  # The compression ratio of files with fewer bytes than this is not checked.
 MEMBERS = 200_000

@@ -17,9 +17,9 @@ from typing import NoReturn
 
 from course_pkg.sandbox.linux import namespaces
 
-ENTER = "nsenter"  # a program of util-linux
-# Each key is the number of file descriptors that a graph has. The value contains the kind of namespace to
-# which each of these descriptors refers.
+ENTER = "nsenter"  # nsenter is a program of util-linux.
+# A graph has at most two file descriptors. For each number of file descriptors, this dict contains the kinds
+# of namespaces to which they refer.
 KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}
 
 

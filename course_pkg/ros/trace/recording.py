@@ -102,7 +102,7 @@ class Recording:
     length: float = 0.0
 
     def of(self, *kinds: str, name: str = "", node: str = "") -> tuple[Event, ...]:
-        """Return the events of these kinds, such as "wait", or of all kinds.
+        """Return the events of these kinds, such as "wait"; without a kind, return the events of all kinds.
 
         `name` and `node` select the events of one service or topic, and of one node.
         """

@@ -28,8 +28,8 @@ SAID = ("title", "desc")  # The description in the Markdown replaces these eleme
 # The pattern matches a reference to another element of the same drawing.
 WITHIN = re.compile(r"url\(#([^)]*)\)")
 KINDS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".webp": "webp"}
-# The minimum width of a drawing, divided by the drawing's own width. In a narrower window, the drawing gets a
-# scroll bar, because smaller text cannot be read.
+# This is the minimum width of a drawing, divided by the drawing's own width. In a narrower window, the
+# drawing gets a scroll bar, because smaller text cannot be read.
 SMALLEST = 0.75
 
 

@@ -19,7 +19,7 @@ from course_pkg.waiting import at_this_load, wait_until
 FILE = "fits.py"
 # All runs start at the same time and may take this many s; a program waits at most 2 s for the service.
 RUNS = 9.0
-# A program may wait this many s for a missing service: 2 s, and the time to end.
+# A program may wait at most this many s for a missing service: 2 s, plus the time that it needs to end.
 WAITS = 4.0
 LATE = 0.5  # The service starts this many s after the first snapshot that contains the node.
 POLL = 0.2  # The check tests every POLL s whether the runs have ended.

@@ -21,7 +21,8 @@ CLIENT = Program("scripts/client.py")
 FILE = MY_GEOMETRY.path(CLIENT.file)
 SERVICE = "/getGeometry"
 USAGE = re.compile("^usage:", re.MULTILINE)
-WAITED = re.compile("waiting for service|unavailable")  # rospy's error messages for a missing service
+# The pattern matches rospy's error messages for a missing service.
+WAITED = re.compile("waiting for service|unavailable")
 # A run of the client may take this many s: rospy needs 0.5 s to start (5 s on a busy machine), and the client
 # waits up to 5 s.
 WITHIN = 16.0
