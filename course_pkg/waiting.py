@@ -33,7 +33,7 @@ class Deadline:
 
     @property
     def milliseconds(self) -> int | None:
-        """The remaining milliseconds, rounded up, for select.poll, or None if the deadline never passes."""
+        """The remaining milliseconds for select.poll, rounded up, or None if the deadline never passes."""
         return None if self.seconds is None else math.ceil(self.left * 1000)
 
     @property

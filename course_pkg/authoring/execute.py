@@ -40,7 +40,7 @@ def workers_here(notebooks: int) -> int:
 def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
     """Run the solutions of the given chapters, or of all chapters, and store them with their outputs.
 
-    An example of the chapters in `chapters` is ["05"].
+    For example, `chapters` is ["05"].
 
     If a solution stops before its last cell, or if one of its checks does not pass, the file of this solution
     does not change. When all solutions have run, the function raises AuthoringError with all errors and
@@ -62,7 +62,7 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 
 
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
-    """Run all `notebooks`, several at the same time; the keys of `notebooks` are the names.
+    """Run all notebooks, several at the same time; the keys of `notebooks` are the notebooks' names.
 
     Call the function `finished` with the name and the outputs of each notebook that ran to its last cell.
     Return a dict with the error of each notebook that stopped earlier; the keys are the notebooks' names. A

@@ -107,7 +107,7 @@ def read(path: Path) -> Notebook:
 
 
 def text_of(notebook: Notebook) -> str:
-    """Return the content of the file for `notebook`. Raises AuthoringError if the format is invalid."""
+    """Return the content of a notebook's file. Raises AuthoringError if the format is invalid."""
     try:
         nbformat.validate(notebook)
     except nbformat.ValidationError as error:

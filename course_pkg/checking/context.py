@@ -188,7 +188,7 @@ class CheckContext:
     # -- servers and topics for the student's client
 
     def serve(self, name: str, kind: str | ServiceClass, script: Script) -> ScriptedServer:
-        """Serve the service `name` with the function `script` until the check ends.
+        """Offer the service `name` with the function `script` until the check ends.
 
         See peers/scripted_server.py.
 
@@ -198,7 +198,7 @@ class CheckContext:
         return self._open.enter_context(ScriptedServer(self._node, name, cls, script))
 
     def faulty(self, name: str, kind: str, work: Work) -> FaultyServer:
-        """Serve the service `name` with the handler `work` and with planned faults.
+        """Offer the service `name` with the handler `work` and with planned faults.
 
         See peers/faulty_server.py.
         """

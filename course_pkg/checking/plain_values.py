@@ -21,7 +21,7 @@ ITEMS = 10_000
 
 
 def of_kind(kind: type[Item], value: Json, name: str) -> Item:
-    """Return `value`, which must be an instance of `kind`.
+    """Return the value, which must be an instance of the class `kind`.
 
     Raises CheckError for a value of another class: student code has then changed an object of the check in
     the kernel.

@@ -212,7 +212,7 @@ def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> D
 def _dated(
     options: Options, found: Sequence[Submission], due: Deadlines, table: LateTable | None
 ) -> list[Submission]:
-    """Return the submissions to grade; each submission contains its late days."""
+    """Return the submissions to grade; each submission contains the number of days by which it is late."""
     zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
     asked = bool(options.deadlines or options.times)  # Without a deadline, times.csv is not read.

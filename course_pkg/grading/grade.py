@@ -163,7 +163,7 @@ def _unreviewed(report: Report) -> Report:
 
 
 def grade_from(data: dict[str, Any]) -> Grade:
-    """Return the grade that the method `as_dict` converted into `data`."""
+    """Return the grade from `data`, the result of as_dict()."""
     known = {
         **data,
         "reports": tuple(report_from(each) for each in data["reports"]),

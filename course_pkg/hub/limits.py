@@ -1,4 +1,4 @@
-"""Limits for all processes of one student: a control group (cgroup v2) if possible, otherwise rlimits."""
+"""Limits for all processes of one student: a control group (cgroup v2) if possible, or else rlimits."""
 
 from __future__ import annotations
 

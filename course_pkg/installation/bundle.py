@@ -121,7 +121,7 @@ def _download_wheels(folder: Path) -> None:
 
 
 def _download_packages(names: Sequence[str], folder: Path) -> None:
-    """Download `names` and all packages that they need on a system on which no package is installed."""
+    """Download the packages and all packages that they need on a system without any installed package."""
     (folder / "partial").mkdir(parents=True)
     with tempfile.NamedTemporaryFile(prefix="course-status-") as empty:
         options = {

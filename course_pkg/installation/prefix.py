@@ -71,7 +71,7 @@ class Prefix:
         return sorted(path.parent for path in self.versions.glob(f"*/{RECORD}"))
 
     def switch(self, version: Path) -> None:
-        """Make `version` the current version, and create missing links."""
+        """Make the version `version` the current version, and create missing links."""
         _link(self.current, version.relative_to(self.path))
         for link, target in self._links.items():
             link.parent.mkdir(parents=True, exist_ok=True)
@@ -111,7 +111,7 @@ class Prefix:
 
 
 def users_of(folder: Path) -> Iterator[int]:
-    """Yield the ids of the processes that have `folder` in their command line or environment.
+    """Yield the ids of the processes that have the path of the folder in their command line or environment.
 
     The environment of every program of the course contains the path of the folder. Only root can read the
     environments of other users' processes.

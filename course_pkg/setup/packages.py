@@ -110,7 +110,7 @@ def database_state() -> str:
 
 
 def install_packages(names: Sequence[str], journal: Journal, report: Callable[[str], None]) -> None:
-    """Install `names`; if another package manager is running, wait until it has ended.
+    """Install the packages `names`; if another package manager is running, wait until it has ended.
 
     During the wait, the function `report` is called with a message. Raises SetupError if the user cannot
     install packages, or if a tool fails.

@@ -84,7 +84,7 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Show `text`, which explains a wait, unless the previous call showed the same text."""
+        """Show the text `text`, which explains a wait, unless the previous call showed the same text."""
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:

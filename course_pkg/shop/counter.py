@@ -1,4 +1,7 @@
-"""The counter of a shop, and the times at which each customer comes and leaves; independent of ROS."""
+"""The counter of a shop, and the times at which each customer comes and leaves.
+
+This module does not need ROS.
+"""
 
 from __future__ import annotations
 

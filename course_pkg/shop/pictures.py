@@ -1,4 +1,7 @@
-"""Compute a colour picture of the shop, and the frames of a small grey camera; independent of ROS."""
+"""Compute a colour picture of the shop, and the frames of a small grey camera.
+
+This module does not need ROS.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The customers that a camera sees at a counter, and functions that wait for one; independent of ROS.
+"""The customers that a camera sees at a counter, and functions that wait for one.
+
+This module does not need ROS.
 
 A Watch receives messages with the customers' numbers. An Eye receives frames, which are pictures of the
 counter.

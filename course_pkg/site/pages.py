@@ -121,7 +121,7 @@ def landing(renderer: Renderer, chapters: Sequence[Chapter]) -> Page:
 
 
 def learning_paths(chapters: Sequence[Chapter]) -> list[LearningPath]:
-    """Return the learning paths through `chapters`.
+    """Return the learning paths through the chapters in `chapters`.
 
     A path without a list of chapters contains all chapters.
     """

@@ -113,7 +113,7 @@ def _require_finite(*numbers: float) -> tuple[float, ...]:
 
 
 def publish_without_waiting(publisher: rospy.Publisher) -> None:
-    """Make `publisher` write its messages directly, without waiting for a subscriber."""
+    """Make the publisher write its messages directly, without waiting for a subscriber."""
     impl = publisher.impl
     original = impl.add_connection
     impl.queue_size = None

@@ -1,4 +1,6 @@
-"""The world of the turtles: their positions, their motion, and the lines of their pens; independent of ROS.
+"""The world of the turtles: their positions, their motion, and the lines of their pens.
+
+This module does not need ROS.
 
 Lengths are in metres. The world is 11.088889 m wide and high, and its origin is at the bottom left. Angles
 are in radians, counter-clockwise from the x-axis. One tick is 16 ms.

@@ -198,7 +198,7 @@ def _circle(source: str, text: str, type_name: str, chain: tuple[str, ...]) -> B
 
 
 def _refused(source: str, text: str, error: Exception) -> BrokenDefinition:
-    """Return the error for a definition that `diagnosis` accepts, but that genmsg or genpy refuses."""
+    """Return the error for a definition that the module `diagnosis` accepts, but genmsg or genpy refuses."""
     first = text.split("\n", maxsplit=1)[0]
     return BrokenDefinition(
         source, 1, 1, first, f"ROS refuses it: {error}", "compare it with wiki.ros.org/msg"

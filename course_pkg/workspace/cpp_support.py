@@ -35,7 +35,7 @@ def prefixes() -> list[Path]:
 
 
 def compile_command(source: str, program: str) -> list[str]:
-    """Return a command that builds `program` from one file with the options of catkin, without CMake."""
+    """Return a command that builds a program from one file with the options of catkin, without CMake."""
     folders: list[str] = []
     for prefix in prefixes():
         if prefix == Path("/usr"):  # The compiler searches /usr without an option.

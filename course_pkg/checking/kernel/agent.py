@@ -172,7 +172,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`, because it prints to the streams that existed when rospy started."""
+    """Let rospy's log print to `stream`; otherwise, it prints to the streams at the start of rospy."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers

@@ -60,7 +60,7 @@ class Fault:
 
 
 class FaultyServer(ScriptedServer):
-    """For each request, calls `work`, or executes the next fault from `plan`."""
+    """For each request, calls the function `work`, or executes the next fault in the list `plan`."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, work: Work) -> None:
         super().__init__(node, name, kind, self._scripted)

@@ -1,4 +1,4 @@
-"""What a student handed in: a submission for each chapter, and messages about files that are not graded."""
+"""A student's work: a submission for each chapter, and messages about files that are not graded."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.submissions import submissions
 
-# The submission is copied to a folder with this name. Gradescope knows the name of the student.
+# The submission is copied to a folder with this name. The folder does not need the student's name, because
+# Gradescope knows this name.
 STUDENT = "student"
 
 

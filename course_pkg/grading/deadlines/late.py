@@ -28,7 +28,7 @@ class LatePolicy:
     max_days: float = math.inf
 
     def factor(self, late: float) -> float:
-        """Return the factor for the points of a submission that came `late` days after the deadline."""
+        """Return the factor for the points of a late submission; `late` is the number of days."""
         if late <= 0:
             return 1.0
         if late > self.max_days:

@@ -26,7 +26,7 @@ from itertools import combinations
 
 from course_pkg.grading.flags.fingerprints import Fingerprint
 
-STATEMENTS = 10  # An answer with fewer statements is not compared.
+STATEMENTS = 10  # An answer with fewer statements than this is not compared.
 COMMON = 0.1  # Code is ignored if more than this fraction of the class has it.
 FEW = 3  # Even in a small class, code is compared if at most this many students have it.
 SMALL = 30  # For a smaller class, the weights are computed as for a class of this size.

@@ -36,7 +36,7 @@ class Answer:
     def name(self) -> str:
         """The path of the answer's file, or the id of the part if there is no file.
 
-        The name of an answer is the same if a cell writes the file, and if a package contains the file.
+        The name is the same in both cases: a cell writes the file, or a package contains the file.
         """
         return self.path.removeprefix("src/") or self.where
 

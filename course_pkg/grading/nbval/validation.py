@@ -24,7 +24,7 @@ OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes of nbval's output.
 def wanted(grade: Grade, whose: str) -> bool:
     """Return whether nbval runs a notebook.
 
-    `whose` is "all", "none", or "missing" for notebooks that do not have all points.
+    `whose` is "all", "none" or "missing"; "missing" means the notebooks that do not have all points.
     """
     if not grade.reports or grade.problem or whose == "none":
         return False

@@ -178,7 +178,7 @@ def _start(which: Which, folder: Path) -> Graph:
 
 @contextmanager
 def _short(path: Path) -> Iterator[str]:
-    """Yield a short name for `path`, because the name of a Unix socket has at most 107 bytes."""
+    """Yield a short name for the path, because the name of a Unix socket has at most 107 bytes."""
     folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
     try:
         yield f"/proc/self/fd/{folder}/{path.name}"

@@ -28,7 +28,7 @@ class Worker:
                 self._thread.start()
 
     def drop(self) -> None:
-        """Remove all jobs that have not started from the queue."""
+        """Remove from the queue all jobs that have not started yet."""
         with self._turn:
             self._jobs.clear()
 

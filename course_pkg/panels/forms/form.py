@@ -28,9 +28,9 @@ class Check(TypedDict, total=False):
 
     errors: dict[str, str]
     refused: int
-    shell: str  # Terminal commands that make the same service call.
+    shell: str  # These terminal commands make the service call of the form.
     python: str
-    once: str  # The terminal command that publishes one message.
+    once: str  # This terminal command publishes one message.
     often: str
 
 

@@ -124,7 +124,7 @@ class ServiceModel:
                 self._changed(outcome={"phase": "idle"}, **self._fresh())
 
     def edit(self, draft: Draft) -> None:
-        """Store the texts of the form; report the errors in them, or the commands that make the same call."""
+        """Store the texts of the form; report the errors in them, or the commands that make this call."""
         with self._turn:
             if self.form:
                 self.draft = draft

@@ -142,7 +142,7 @@ class TopicModel:
             self._changed(connections=seen, about=self._about())
 
     def edit(self, draft: Draft) -> None:
-        """Store the texts of the form; report their errors, or the commands that publish the same message."""
+        """Store the texts of the form; report their errors, or the commands that publish this message."""
         with self._turn:
             if self._form:
                 self.draft = draft
@@ -188,7 +188,7 @@ class TopicModel:
         self._command("withdraw")
 
     def _checked(self) -> Check:
-        """Return the errors of the form, or the commands that publish the same message."""
+        """Return the errors of the form, or the commands that publish this message."""
         if not self._form:
             return {"errors": {}, "refused": self._refusals}
         check = self._form.checked(self.draft)

@@ -90,7 +90,7 @@ class Node:
         return self._started(" ".join([name or f"{package}/{executable}", *renamed]), start)
 
     def keep(self, process: NodeProcess) -> None:
-        """End `process` when this node ends."""
+        """End the process `process` when this node ends."""
         self._processes[f"process {process.pid}"] = process
 
     def record(self) -> AbstractContextManager[Recording]:

@@ -46,7 +46,7 @@ def start_node(name: str) -> bool:
 
 
 def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
-    """Wait for a master, start the node `node`, and offer `services` until Ctrl-C.
+    """Wait for a master, start the node `node`, and offer the services until Ctrl-C.
 
     The keys of `services` are the names of the services.
     """
@@ -79,7 +79,7 @@ def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Me
     """Start a node, wait up to 5 s for a service, call the service once, and return the response.
 
     `kind` is a service class, a ServiceType, or a name such as "std_srvs/Trigger". Raises ROSException if no
-    node serves the service within 5 s, CallTimeout if the response takes longer than 5 s, and rospy's errors
+    node offers the service within 5 s, CallTimeout if the response takes longer than 5 s, and rospy's errors
     for a failed call. Raises MasterUnreachable at once if no master answers.
     """
     # Raise an error if no master answers, because init_node would wait for a master for ever.

@@ -126,7 +126,7 @@ class ThreadErrors(logging.Handler):
             self._show(ended.exc_value)
 
     def _show(self, error: BaseException) -> None:
-        """Show `error`, unless the same error is already shown below the current cell."""
+        """Show the error `error`, unless the same error is already shown below the current cell."""
         text = "\n".join(readable_traceback(error, self._place_of, HANDLER_HEADER))
         if text not in self._shown:
             self._shown.add(text)

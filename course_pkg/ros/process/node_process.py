@@ -90,7 +90,7 @@ class NodeProcess:
         )
 
     def wait_for_output(self, text: str, timeout: float = 30.0) -> None:
-        """Return as soon as the process has printed `text`.
+        """Return as soon as the process has printed the text `text`.
 
         Raises NodeFailed if the process ends first, or after `timeout` s; the message contains
         the last output.

@@ -78,7 +78,7 @@ def require_sandbox() -> None:
 
 
 def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) -> list[str]:
-    """Return the command that runs `command` in a sandbox.
+    """Return the command that runs the command `command` in a sandbox.
 
     Start the returned command with an empty environment. Inside the sandbox, only the course (without
     solutions and tests), ROS, and the paths in `readable` are visible, and all of them are read-only.

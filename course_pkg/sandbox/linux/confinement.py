@@ -150,7 +150,7 @@ def _wait_and_exit(child: int) -> NoReturn:
 
 
 def _reap_until(child: int) -> NoReturn:
-    """Act as the first process of a process namespace: reap orphans, and exit when `child` has ended."""
+    """Act as the first process of a process namespace: reap orphans, and exit when the child has ended."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     while os.wait()[0] != child:
         pass

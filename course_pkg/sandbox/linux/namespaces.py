@@ -75,7 +75,7 @@ def keep_mounts_private() -> None:
 
 
 def mount_memory(target: str, *, size: int = 0, files: int = 0, read_only: bool = False) -> None:
-    """Mount an empty folder in memory over `target`.
+    """Mount an empty folder in memory at the path `target`.
 
     `size` is the limit in bytes, and `files` is the limit for the number of files; 0 means the default.
 

@@ -73,7 +73,7 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
     runs=["simulator"],
 )
 def a_viewer_for_each_arm(context: CheckContext) -> None:
-    """Run the student's commands for two arms, and compare the names of started nodes and their topics."""
+    """Run the student's commands for two arms, and check the names of the nodes and of their topics."""
     with ExitStack() as running:
         for arm in (context.random.word() for _ in range(2)):
             before = {node.name for node in context.look().nodes}

@@ -4,7 +4,7 @@ The parameter `~design` is `poll`, `topic` or `wait`. With `poll`, the node call
 `detect_customer` at the rate `~rate` (in Hz), and also immediately after each new customer. With `topic`, the
 node subscribes to the topic `customers`. With `wait`, the node also calls the service `detect_customer`, but
 the server waits for a customer before it responds; `~patience` is the maximum waiting time in s. The node
-publishes the number of each greeted customer on the topic `greetings` (std_msgs/UInt32), and serves the
+publishes the number of each greeted customer on the topic `greetings` (std_msgs/UInt32), and offers the
 service `~report` (course_pkg/CashierReport).
 """
 

@@ -161,7 +161,7 @@ def _pairs(context: CheckContext) -> list[Pair]:
 
 
 def _name(context: CheckContext) -> str:
-    """Return a random name of a field; its length and its characters differ from name to name."""
+    """Return a random name for a field; the names have different lengths and different characters."""
     return context.random.word(context.random.integer(5, 9)) + context.random.choice(["", "", "_2", "_x"])
 
 

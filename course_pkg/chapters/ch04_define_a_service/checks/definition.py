@@ -1,4 +1,4 @@
-"""The check of Lamp.srv: it parses the file in the same way as ROS, compares each field, and builds it."""
+"""The check of Lamp.srv: it parses the file in the same way as ROS, compares the fields, and builds it."""
 
 from __future__ import annotations
 

@@ -220,7 +220,7 @@ def _longest_pause(earlier: Sequence[float], later: Sequence[float]) -> float:
 
 
 def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: Mapping[str, float]) -> None:
-    """Use lists with and without a working service in a random order; fixed results are then wrong."""
+    """Use lists with and without a working service in a random order; a function with fixed results fails."""
     used = [*context.random.shuffled(list(works))[:2], *[""] * context.random.integer(1, 3)]
     for working in context.random.shuffled(used):
         failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]

@@ -66,7 +66,7 @@ def is_anybody_there(context: CheckContext) -> None:
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
-        ).returned(),  # Calls for a missing service have the same time limit.
+        ).returned(),  # In calls for a missing service, the time limit is the same.
         hints=[
             (
                 False,

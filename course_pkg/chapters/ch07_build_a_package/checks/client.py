@@ -240,7 +240,7 @@ def _run(package: BuiltPackage, arguments: list[str]) -> Finished:
 
 
 def _printed(done: Finished, name: str) -> float | None:
-    """Return the number in an output line such as "area: 6.24", or None; `name` is the word in the line."""
+    """Return the number in an output line such as "area: 6.24", or None; `name` is the line's first word."""
     found = re.search(rf"(?m)^\s*{name}:\s*(-?\d+\.\d\d)\s*$", done.out)
     return float(found[1]) if found else None
 

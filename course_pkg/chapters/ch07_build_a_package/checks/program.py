@@ -144,7 +144,7 @@ def _never_ends(done: Finished) -> bool:
 def serves(
     context: CheckContext, running: Running, package: BuiltPackage, program: Program, name: str, node: str
 ) -> None:
-    """Wait until the node `node` serves the service `name`; if this takes too long, report the reason."""
+    """Wait until the node `node` offers the service `name`; if this takes too long, report the reason."""
     assertion = f"rosrun starts it, and it serves {program.service}"
     deadline = time.monotonic() + STARTING
     while (found := context.look().service(name)) is None:

@@ -52,7 +52,7 @@ COMMANDS = (  # Each entry contains the pattern, the name and the hint of a requ
     needs=[f"file:{FILE}"],
 )
 def the_readme(context: CheckContext) -> None:
-    """Read the title and the commands, and compare the order of the commands."""
+    """Read the title and the commands, and check the order of the commands."""
     text = context.source(f"file:{FILE}")
     first = text.strip().partition("\n")[0]
     context.require(
@@ -98,7 +98,7 @@ def the_readme(context: CheckContext) -> None:
 
 
 def _place(context: CheckContext, commands: str, pattern: str, name: str, hint: str) -> int:
-    """Assert that `commands` contains the command `name`; return the position of its first occurrence."""
+    """Assert that the README contains the command `name`; return the position of its first occurrence."""
     found = re.search(pattern, commands)
     context.require(
         f"it contains {name}",

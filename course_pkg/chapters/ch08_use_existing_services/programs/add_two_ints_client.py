@@ -26,7 +26,7 @@ def main() -> None:
 def add(node: str, kind: type | ServiceType, read: Callable[[str], float], usage: str) -> int:
     """Call the service `add_two_ints` with the two command-line arguments; return the exit status.
 
-    `node` is the name of the node.
+    `node` is the name of the client's node.
 
     `kind` is the service type that the client uses. `read` converts an argument to a number, and raises
     ValueError for an invalid argument.

@@ -31,9 +31,9 @@ LOGGERS = ("/get_loggers", "/set_logger_level")  # Every node has these services
 class World:
     """A new namespace for the student's program.
 
-    A relative name in the program, such as "spawn", is resolved in this namespace. The absolute names of
-    `services` and of the turtles' topics are remapped to this namespace. `turtle` is the name of an
-    additional turtle.
+    A relative name in the program, such as "spawn", is resolved in this namespace. The absolute names of the
+    services in `services` and of the turtles' topics are remapped to this namespace. `turtle` is the name of
+    an additional turtle.
     """
 
     def __init__(

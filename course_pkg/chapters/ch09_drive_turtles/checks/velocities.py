@@ -71,7 +71,7 @@ class Stream:
         )
 
     def becomes(self, wanted: tuple[float, float], assertion: str, hints: Hints) -> None:
-        """Assert that the velocity becomes `wanted` (m/s, rad/s) within about 1 s.
+        """Assert that the turtle's velocity becomes `wanted` (m/s, rad/s) within about 1 s.
 
         Messages that arrived before the call of this method are ignored.
         """
@@ -101,7 +101,7 @@ class Stream:
         )
 
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
-        """Assert that `wanted` messages per second arrive.
+        """Assert that the messages arrive at the rate `wanted` (Hz).
 
         After a change of the rate, the first messages may still arrive at the old rate.
         """

@@ -66,8 +66,8 @@ NO_TILL = (
 class Till:
     """A till that charges amounts; while the till handles its first call, it calls a service of the shop.
 
-    If many clients call the till at the same time, its first call waits until as many calls have arrived as
-    `crowd` says.
+    If many clients call the till at the same time, its first call waits for the other calls; `crowd` is the
+    total number of calls.
     """
 
     def __init__(self, context: CheckContext, left: str, shelf: CheckedShelf) -> None:

@@ -1,4 +1,4 @@
-"""The node `session_server`: serves the service `add_up`, which has a separate total for each session.
+"""The node `session_server`: offers the service `add_up`, which has a separate total for each session.
 
 A request does not contain the name of its sender. Therefore, a client writes the name of its session into the
 field `session` of the connection header. A header may contain any field

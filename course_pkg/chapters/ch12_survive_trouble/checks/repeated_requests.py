@@ -153,7 +153,7 @@ class CheckedPurse:
 
 
 def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
-    """Serve the service `name` with a new Till; return the Till's purse, and the result of Till(purse)."""
+    """Offer the service `name` with a new Till; return the Till's purse, and the result of Till(purse)."""
     purse = CheckedPurse()
     context.place("checked_purse", purse)
     its = Its("Till"), Its("checked_purse")

@@ -60,7 +60,7 @@ class Client:
     running: Running | None = None
 
     def serve(self, name: str, act: Callable[[], Act]) -> ScriptedServer:
-        """Serve the service `name` until the check ends; the function `act` returns the action for a call."""
+        """Offer the service `name` until the check ends; the function `act` returns the action for a call."""
 
         def answer(_: object) -> Act:
             if self.running:

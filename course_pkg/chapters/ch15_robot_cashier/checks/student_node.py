@@ -143,7 +143,7 @@ def complete(
 def still(started: float, least: float) -> float:
     """Return the time until which a node must have all its names; the node has its first name now.
 
-    The result is `least` s from now, or later if the node has started slowly.
+    `least` is the minimum time in s from now. If the node has started slowly, the node gets more time.
 
     `started` and the result are in s of time.monotonic().
     """

@@ -259,7 +259,7 @@ def _called(detector: Detector, times: int) -> bool:
 
 
 def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscription) -> None:
-    """Wait for the calls in STEPS in order, and compare the `patience` and the time of each call."""
+    """Wait for the calls in STEPS in order, and check the `patience` and the time of each call."""
     for number, step in enumerate(STEPS):
         came = _called(detector, number + 1)
         before = STEPS[number - 1].name if number else "nothing"

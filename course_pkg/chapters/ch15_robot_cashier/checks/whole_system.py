@@ -251,7 +251,7 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer returns `customer` within REACTION s."""
+        """Return whether detect_customer returns the value `customer` within REACTION s."""
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
 
         def told() -> bool:
@@ -374,7 +374,10 @@ def _waits_briefly(context: CheckContext, delay: float) -> None:
 
 
 def _restarts_killed_nodes(context: CheckContext, package: BuiltPackage, space: str, within: float) -> None:
-    """Kill the four nodes; each node must run again as a new process within `within` s."""
+    """Kill the four nodes; each node must run again in time as a new process.
+
+    `within` is the time limit in s.
+    """
     started = context.look()
     before = {node: _pid(started, f"{space}/{node}") for node in NODES}
     own = [started.node(f"{space}/{node}") for node in NODES]

@@ -1,8 +1,8 @@
 """The node `counter_camera`: a small grey camera above the counter of the robot cashier.
 
-The node publishes images on the topic `frames` (sensor_msgs/Image, mono8), and serves the service `let_in`
+The node publishes images on the topic `frames` (sensor_msgs/Image, mono8), and offers the service `let_in`
 (course_pkg/LetIn). The parameter `~rate` (default 10) is the number of images per second. If `~every` is
-above 0, additional customers come: on average, one customer every `~every` s.
+above 0, additional customers come at random times; `~every` is the average time in s between two of them.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The node `receipt_printer`: prints one line at a time until it has no paper.
 
-The node serves the service `print_line` (course_pkg/PrintLine), and publishes each printed line on the topic
+The node offers the service `print_line` (course_pkg/PrintLine), and publishes each printed line on the topic
 `receipt` (std_msgs/String). The private parameter `~paper` (default 1000) is the number of lines that can be
 printed.
 """

@@ -123,7 +123,7 @@ def _kind(seen: Snapshot, robot: Robot, full: str) -> str:
 
 
 def _elsewhere(seen: Snapshot, robot: Robot, name: str) -> bool:
-    """Return whether the robot uses `name` as an absolute or private name, instead of a relative name."""
+    """Return whether the robot uses the name as an absolute or private name, instead of a relative name."""
     return bool(_kind(seen, robot, f"/{name}") or _kind(seen, robot, f"{robot.node}/{name}"))
 
 
