@@ -10,11 +10,11 @@ from types import SimpleNamespace
 import pytest
 
 from course_pkg.errors import SetupError
-from course_pkg.setup import Places, packages
+from course_pkg.setup import Places, packages, steps
 from course_pkg.setup.journal import Journal
 from course_pkg.setup.progress import Progress
 from course_pkg.setup.stamps import locked
-from course_pkg.setup.steps import steps_of
+from course_pkg.setup.steps import Step, ensure, steps_of
 
 
 @pytest.fixture
@@ -30,6 +30,21 @@ def test_an_empty_cache_needs_libraries_and_workspace(tmp_path: Path) -> None:
     *_, [libraries], [catkin] = [[step for step in stage if step.makes] for stage in steps_of(places)]
     assert not libraries.is_done()
     assert not catkin.is_done()
+
+
+@pytest.mark.parametrize(("complete", "message"), [(True, "libraries of the hub"), (False, "does not work")])
+def test_a_user_cannot_complete_an_installation(
+    complete: bool, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An ordinary user of an installation gets a message that says what an administrator has to do."""
+
+    def steps_of_installation(_: Places, *, hub: bool = False, **_others: bool) -> list[list[Step]]:
+        return [[Step("libraries", lambda: complete and not hub, lambda _journal, _progress: None)]]
+
+    monkeypatch.setattr(steps, "steps_of", steps_of_installation)
+    monkeypatch.setattr(Places, "installed", True)
+    with pytest.raises(SetupError, match=message):
+        ensure(Places(tmp_path, tmp_path / "nowhere"), hub=True)
 
 
 def test_a_tool_that_fails_is_shown_by_its_last_lines_and_its_log(journal: Journal) -> None:

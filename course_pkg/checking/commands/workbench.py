@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from threading import Thread
 from typing import IO
 
 from course_pkg.checking.plain_values import Reply
@@ -95,6 +96,12 @@ class _Running:
         in_folder = ["sh", "-c", 'cd "$0" && exec "$@"', str(folder), *command]
         self._process = SupervisedProcess(in_folder, output=self._output, env=_environment(folder))
         self._end: Reply | None = None
+        self._ended = 0.0  # The time at which the command ended (s, time.monotonic()).
+        Thread(target=self._wait, daemon=True).start()
+
+    def _wait(self) -> None:
+        self._process.wait()
+        self._ended = time.monotonic()
 
     @property
     def status(self) -> int | None:
@@ -119,8 +126,10 @@ class _Running:
         if self._end is None:
             status = self.status
             self._process.end(GRACE)
-            took = time.monotonic() - self._started
-            self._end = {"status": status, "out": _text(self._output), "err": "", "took": took}
+            now = time.monotonic()
+            ended = self._ended or now
+            self._end = {"status": status, "out": _text(self._output), "err": ""}
+            self._end.update(took=ended - self._started, ago=now - ended)
             self._output.close()
         return self._end
 

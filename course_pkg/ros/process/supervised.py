@@ -88,8 +88,11 @@ class SupervisedProcess:
             with suppress(ProcessLookupError):
                 os.kill(self.pid, number)
 
-    def wait(self, timeout: float) -> bool:
-        """Wait up to `timeout` s; return whether all processes of the command have ended."""
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait up to `timeout` s; return whether all processes of the command have ended.
+
+        Without `timeout`, wait until they have ended.
+        """
         try:
             self._process.wait(timeout)
         except subprocess.TimeoutExpired:
