@@ -88,7 +88,7 @@ def write_private(path: Path, text: str) -> None:
 
 
 def add_to_table(path: Path, issued: dict[str, str]) -> None:
-    """Add rows to a CSV file with the columns username and password, which only its owner can read."""
+    """Add rows to a CSV file with the columns username and password; only the file's owner can read it."""
     rows: dict[str, str] = {}
     if path.exists():
         with path.open(newline="") as file:

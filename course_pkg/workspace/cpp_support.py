@@ -8,7 +8,7 @@ from pathlib import Path
 
 HEADER = "include/ros/ros.h"
 LIBRARIES = ("roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "boost_thread")
-# Without this option, the compiler accepts a handler without a return statement, which may crash.
+# Without this option, the compiler accepts a handler without a return statement; such a handler may crash.
 WARNINGS = ("-Werror=return-type",)
 
 

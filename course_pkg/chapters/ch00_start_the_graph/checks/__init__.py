@@ -39,7 +39,7 @@ MISSED = "Return how many numbers were published between the two received number
     runs=["server"],
 )
 def read_the_graph(context: CheckContext) -> None:
-    """Compare the student's names of the node, the service and the type with the right names."""
+    """Compare the names that the student found for the node, the service and the type with the right ones."""
     with context.goal(NODE):
         context.expect(
             "the name of the node",

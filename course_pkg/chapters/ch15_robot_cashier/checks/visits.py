@@ -155,7 +155,7 @@ GREETED = "Greet each customer once, and publish mirror images of the arm at the
     },
 )
 def the_visits(context: CheckContext) -> None:
-    """Serve a detector that responds, refuses and closes a connection, and a till that refuses once."""
+    """Run a detector that responds, refuses and closes a connection, and a till that refuses once."""
     package = examined(context, NAME)
     names = [*INTERFACE.names, DETECT, RESET]
     space, other = (f"/{context.random.word()}" for _ in range(2))
