@@ -9,8 +9,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-RECORD = "installation.json"  # a file in the folder of each complete version of a shared installation
-# a folder in the user's own folder: it contains the results, the settings of JupyterLab, and logs
+RECORD = "installation.json"  # This file is in each complete version of a shared installation.
+# This folder is in the user's own folder, and contains the results, the settings of JupyterLab, and logs.
 DATA = ".course"
 
 

@@ -217,7 +217,10 @@ def _parsed(source: str) -> tuple[str, ast.Module]:
 
 
 def _masked(line: str) -> str:
-    """Return `line`; a name of the same length replaces an IPython magic, a shell command or `name?`."""
+    """Return a line in which underscores replace an IPython magic, a shell command or `name?`.
+
+    The length of the line in bytes does not change.
+    """
     found = MAGIC.match(line)
     if not found:
         return line

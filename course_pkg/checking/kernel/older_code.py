@@ -28,7 +28,7 @@ class OlderCode:
         self._later_run = later_run
 
     def of_value(self, name: str, value: Value) -> str:
-        """Return an instruction for the student if `value` is older than its cell, or ""."""
+        """Return an instruction for the student if `value` is older than the code in its cell, or ""."""
         run = self._run_after(value)
         if run is None:
             return ""

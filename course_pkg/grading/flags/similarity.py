@@ -129,7 +129,7 @@ class Exercise:
         return math.log2(everybody / max(1, as_much))
 
     def is_enough(self, couple: Couple) -> bool:
-        """Return whether one nearly identical answer is enough to flag the two students in `couple`."""
+        """Return whether one nearly identical answer is enough to flag a pair of students."""
         first, second = (self._answers[number] for number in couple)
         words = self._rare(first.words & second.words)
         return words >= OWN_WORDS or (

@@ -80,7 +80,7 @@ class PrivateGraph:
         return f"<a private graph with {master} and {alive} programs>"
 
     def _knows(self, process: NodeProcess) -> bool:
-        """Return whether a node of `process` is registered: `process` listens on the port of this node."""
+        """Return whether any registered node has a port that `process` listens on."""
         master = MasterClient(self.uri)
         try:
             nodes, _ = master.lookup_all(master.system_state().nodes, ())

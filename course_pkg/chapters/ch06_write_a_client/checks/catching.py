@@ -195,7 +195,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 
 
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
-    """Return the failures.
+    """Return the failures of a call that the student's function must handle.
 
     Each tuple contains the name of the failure, the name of the service, and the server or None.
     """

@@ -204,8 +204,9 @@ def _groups(report: Service, clients: int) -> Iterator[Reply]:
     """Make many groups of simultaneous calls, and yield the replies.
 
     On a busy machine, the calls of one group may arrive one after another, so one group is not enough. If
-    threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, failed calls are
-    accepted in FAILED groups. After a deadlock, all later calls fail, so a deadlock is still found.
+    threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, up to
+    FAILED groups may contain failed calls. After a deadlock, all later calls fail, so a deadlock is still
+    found.
     """
     failed = 0
     for _ in range(GROUPS):

@@ -15,7 +15,7 @@ EVERY = 0.1  # EVERY is the time in s between two messages.
 
 
 class SeenCustomers:
-    """Publishes the value `customer` every 0.1 s, except None; `last` is the time of the last message."""
+    """Publishes `customer` every 0.1 s unless it is None; `last` is the time of the last message."""
 
     def __init__(self, topic: str) -> None:
         self.customer: bool | None = None
