@@ -32,7 +32,7 @@ from course_pkg.setup.network import network_problem
 from course_pkg.state import locked
 
 PORTS = (*range(8000, 8020), 0)  # the ports to try; 0 means any free port
-ORDINARY = "nobody"  # an account that exists on each system, with the rights of an ordinary user
+ORDINARY = "nobody"  # Each system has an account with this name; the account has no special rights.
 GRACE = 20.0  # The hub has to end the students' servers within this time in s.
 
 
