@@ -23,7 +23,7 @@ from course_pkg.lab.graph.settings import settings_for
 from course_pkg.lab.jupyterlab import server_settings
 from course_pkg.workspace import make_own_workspace
 
-PULL_TIMEOUT = 60.0  # s
+PULL_TIMEOUT = 60.0  # The time is in s.
 # jupyterhub imports these modules in a student's server, but uses them only in the hub.
 ONLY_IN_HUB = ("jupyterhub.orm", "jupyterhub.roles", "sqlalchemy")
 NAMES_ONLY_IN_HUB = {"jupyterhub.handlers.pages": "HealthCheckHandler", "sqlalchemy.exc": "SQLAlchemyError"}
@@ -53,7 +53,7 @@ def main() -> None:
 
 
 def pull(repository: str, folder: Path) -> None:
-    """Copy the released notebooks to `folder`.
+    """Copy the released notebooks to the folder `folder`.
 
     If `folder` exists, merge the changes and keep the student's work.
 
@@ -73,7 +73,7 @@ def pull(repository: str, folder: Path) -> None:
 
 
 def _serve() -> None:
-    # without programs on PATH, the import of jupyterlab cannot run `node`, see course_pkg/lab/__main__.py
+    # Without programs on PATH, the import of jupyterlab cannot run `node`; see course_pkg/lab/__main__.py.
     path = os.environ["PATH"]
     os.environ["PATH"] = os.devnull
     import jupyterlab.labapp  # noqa: F401

@@ -1,4 +1,7 @@
-"""If an answer runs without its notebook, these cells run before and after it; see checking/fixtures.py."""
+"""The cells that run before and after an answer of chapter 12 if it is examined without its notebook.
+
+See checking/fixtures.py.
+"""
 
 # %% before
 import threading
