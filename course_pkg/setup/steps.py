@@ -49,8 +49,8 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
         os.umask(0o022)  # The students' servers have to be able to read the libraries of the hub.
     elif places.installed and hub and _finished(steps_of(places)):
         raise SetupError(
-            f"The installation in {places.checkout.parent} does not contain the libraries of the hub yet. The "
-            "first `course hub` of an administrator installs them."
+            f"The installation in {places.checkout.parent} does not contain the libraries of the hub yet. "
+            "They are installed when an administrator runs `course hub` for the first time."
         )
     elif places.installed:
         raise SetupError(

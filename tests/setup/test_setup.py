@@ -89,7 +89,7 @@ def test_the_set_up_waits_for_another_package_manager(
 
 
 def test_waiting_for_a_lock_has_a_timeout(journal: Journal, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After the timeout, or after an error that is not about a lock, the tool's error message is shown."""
+    """After the timeout, or after an error that is not about a lock, the set-up shows the tool's error."""
     monkeypatch.setattr(packages, "LOCK_TIMEOUT", 0.0)
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     for words in ("Could not get lock /x", "Unable to locate package y"):
@@ -129,7 +129,7 @@ def test_progress_in_a_pipe_prints_start_and_result() -> None:
 
 
 def test_progress_counts_and_estimates_the_rest(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If the output is a pipe, the progress of the work is printed every 10 s."""
+    """If the output is a pipe, the set-up prints its progress every 10 s."""
     now = 0.0
     monkeypatch.setattr("time.monotonic", lambda: now)
     stream = io.StringIO()

@@ -40,7 +40,7 @@ class CommandFolders:
         self._running: list[_Running] = []
 
     def folder(self, files: Sequence[str], texts: Mapping[str, str]) -> Reply:
-        """Make a folder with copies of the student's files and folders, and with the check's `texts`."""
+        """Make a folder with copies of the student's files and folders, and with the check's own texts."""
         self._root = self._root or self._open.enter_context(temporary_folder("course-run-"))
         folder = self._root / str(len(self._folders))
         folder.mkdir()
@@ -54,7 +54,7 @@ class CommandFolders:
         return {"folder": len(self._folders) - 1}
 
     def run(self, argv: Sequence[str], folder: int, within: float) -> Reply:
-        """Run a command for at most `within` s."""
+        """Run a command; the time limit is `within` (s)."""
         return _finished(_command(argv), self._folders[folder], within)
 
     def start(self, argv: Sequence[str], folder: int) -> Reply:

@@ -118,7 +118,7 @@ class SupervisedProcess:
         return set()
 
     def end(self, grace: float = 2.0) -> None:
-        """End the command and all its descendants with SIGINT, and kill them after `grace` s.
+        """End the command and its descendants with SIGINT; after the time `grace` (s), kill them.
 
         In a forked child, this method does nothing.
         """
@@ -159,7 +159,7 @@ def listening_ports(pid: int) -> frozenset[int]:
 
 
 def _executed(pid: int) -> list[tuple[str, str]]:
-    """Return (SHA-256 sum, name) of the files that a process executes; if it has ended, an empty list."""
+    """Return (SHA-256 sum, name) of each file that a process executes, or [] if the process has ended."""
     try:
         name = Path(os.readlink(f"/proc/{pid}/exe")).name
         digest = hashlib.sha256(Path(f"/proc/{pid}/exe").read_bytes()).hexdigest()

@@ -98,7 +98,7 @@ def _served_late(context: CheckContext, world: World, running: Running) -> Finis
 
 
 def _answer(world: World, act: Act) -> Script:
-    """Return a script that looks at the student's program during each call, and then does `act`."""
+    """Return a script that examines the student's program during each call, and then returns `act`."""
 
     def answer(_: object) -> Act:
         world.examine()
