@@ -151,7 +151,7 @@ def test_a_saved_lab_shows_the_last_case(
     page.goto(save(widget, tmp_path / "page.html", theme))
     form = panel(page, LABEL)
     expect(
-        form.get_by_text("No kernel answers: this is a saved panel. It shows the last case")
+        form.get_by_text("No kernel answers: this is a saved panel. It shows the last state of the last case")
     ).to_be_visible()
     expect(form.get_by_label("What it printed")).to_contain_text("service handler returned None")
     expect(form.get_by_text("Right.", exact=True)).to_be_visible()
