@@ -11,7 +11,7 @@ def measurer_command(room):
 
 # %% 01.1 right: quoted, and with a namespace without a slash
 replace('f"rosrun course_pkg server __ns:=/{room} __name:=measurer getGeometry:=measure"', "\"rosrun course_pkg server 'getGeometry:=measure' __ns:=\" + room + \" '__name:=measurer'\"")
-# %% 01.1 wrong: a global name | hint: but the service is /measure for
+# %% 01.1 wrong: a global name | hint: but the name of the service is /measure
 replace("getGeometry:=measure", "getGeometry:=/measure")
 # %% 01.1 wrong: no namespace | hint: The name of the service is /measure for
 replace("__ns:=/{room} ", "")
@@ -34,9 +34,9 @@ replace(":=", " := ", times=3)
 replace("server", "pulse")
 # %% 01.1 wrong: roslaunch | hint: The command has to begin with
 replace("rosrun", "roslaunch")
-# %% 01.1 wrong: forgets to return | hint: without a return line
+# %% 01.1 wrong: forgets to return | hint: without a return statement
 replace("return ", "command = ")
-# %% 01.1 wrong: another name for the node | hint: The name of the node has to be `measurer`
+# %% 01.1 wrong: another name for the node | hint: The node has to be `measurer`
 replace("__name:=measurer", "__name:=measure")
 # %% 01.1 wrong: a private name for the service | hint: A name that begins with
 replace("getGeometry:=", "getGeometry:=~")
@@ -67,7 +67,7 @@ def viewer_command(arm):
     words += [f"joint_states:=/{arm}/joint_states", f"mirrored_joints:=/screen/{arm}/mirrored_joints"]
     return " ".join(words)
 
-# %% 01.2 wrong: registers names without a viewer | hint: The program that your command starts is not
+# %% 01.2 wrong: registers names without a viewer | hint: The viewer on the graph is not
 def viewer_command(arm):
     viewer = rosgraph.Master(f"/screen/{arm}_viewer")
     uri = rospy.get_node_uri()
@@ -149,7 +149,7 @@ replace("for service … return None", "return length * width * height")
 # %% 01.3 wrong: only one namespace deep | hint: exists, but your function returned None
 replace('if service.split("/")[-1]', 'parts = service.split("/")\n        if len(parts) == 3 and parts[2]')
 replace("\n    return None", "")
-# %% 01.3 wrong: forgets to return | hint: without a return line
+# %% 01.3 wrong: forgets to return | hint: without a return statement
 replace("return rospy.ServiceProxy", "rospy.ServiceProxy")
 # %% 01.3 wrong: 0 when there is none | hint: No service has the given
 replace("None", "0")
@@ -166,7 +166,7 @@ replace("for service … return None", """for name in rosservice.get_service_lis
 # %% 01.3 wrong: lets an IndexError out if there is no service | hint: In this exercise, a missing
 based_on("the area")
 replace(".area", '.volume\n    raise rospy.ServiceException(f"nobody serves {last}")')
-# %% 01.3 wrong: sends no sides | hint: The request contains 0 for
+# %% 01.3 wrong: sends no sides | hint: All sides in the request are 0
 replace("(length, width, height).volume", "().volume")
 
 # %% 01.4 right: ping each

@@ -246,23 +246,23 @@ replace('"service", "answer"', '"topic", "answer"')
 replace('"topic", "many"', '"service", "answer"')
 # %% 03.4 wrong: a service for tidying the room | hint: With a service, the client would wait
 replace('"action", "long"', '"service", "answer"')
-# %% 03.4 wrong: a topic for tidying the room | hint: With a topic, the sender gets
+# %% 03.4 wrong: a topic for tidying the room | hint: With a topic, the node that publishes
 replace('"action", "long"', '"topic", "newest"')
 # %% 03.4 wrong: a topic for the disk | hint: With a topic, a node would publish the number
 replace('disk": ("service", "seldom")', 'disk": ("topic", "newest")')
-# %% 03.4 wrong: an action for the disk | hint: This job takes only a moment.
+# %% 03.4 wrong: an action for the disk | hint: This task takes only a moment.
 replace('disk": ("service", "seldom")', 'disk": ("action", "answer")')
-# %% 03.4 wrong: a right decision for a wrong reason | hint: in this job, only one
+# %% 03.4 wrong: a right decision for a wrong reason | hint: in this task, only one
 replace('"service", "answer"', '"service", "many"')
-# %% 03.4 wrong: an answer as the reason for a topic | hint: in this job, the node
+# %% 03.4 wrong: an answer as the reason for a topic | hint: in this task, the node
 replace('"topic", "many"', '"topic", "answer"')
-# %% 03.4 wrong: the newest state of the gripper | hint: in this job, new values
+# %% 03.4 wrong: the newest state of the gripper | hint: in this task, new values
 replace('"service", "answer"', '"service", "newest"')
-# %% 03.4 wrong: the gripper is seldom used | hint: in this job, the data
+# %% 03.4 wrong: the gripper is seldom used | hint: in this task, the data
 replace('"service", "answer"', '"service", "seldom"')
-# %% 03.4 wrong: the disk takes long | hint: in this job, the work
+# %% 03.4 wrong: the disk takes long | hint: in this task, the work
 replace('disk": ("service", "seldom")', 'disk": ("service", "long")')
-# %% 03.4 wrong: a latched wheel speed | hint: in this job, a node
+# %% 03.4 wrong: a latched wheel speed | hint: in this task, a node
 replace('"topic", "newest"', '"topic", "latched"')
 # %% 03.4 wrong: no reasons | hint: The reason is missing
 replace('("topic", "newest")', '"topic"')
