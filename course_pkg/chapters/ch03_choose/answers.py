@@ -68,7 +68,7 @@ replace("1 / rate", "0.5")
 replace("return None", 'raise TimeoutError("nobody came")')
 # %% 03.1 wrong: a pause of two seconds | hint: poll() called the service too rarely
 replace("1 / rate", "2")
-# %% 03.1 wrong: three calls at once | hint: poll() made several calls in quick succession
+# %% 03.1 wrong: three calls at once | hint: poll() made several calls without a pause
 replace("end = time", "calls = 0\n    end = time")
 replace("time.sleep(1 / rate)", "calls += 1\n        if calls % 3 == 0:\n            time.sleep(3 / rate)")
 # %% 03.1 wrong: one call if the time is short | hint: poll() made too few calls while no customer came

@@ -223,7 +223,7 @@ replace(".volume", ".area")
 replace("(length, width, height).volume", "(float(length), width, height).volume")
 # %% 06.3 wrong: computes the volume | hint: The function returned the product
 replace("rospy.ServiceProxy(service, geometry)(length, width, height).volume", "length * width * height")
-# %% 06.3 wrong: passes a refusal on | hint: This failed call raised rospy.ServiceException
+# %% 06.3 wrong: passes a refusal on | hint: This failed call also raised
 replace("rospy.ServiceException:", 'rospy.ServiceException as error:\n        if "unavailable" not in str(error):\n            raise')
 # %% 06.3 wrong: calls twice | hint: The function called the service more than once.
 replace("        return rospy", "        rospy.ServiceProxy(service, geometry)(length, width, height)\n        return rospy")

@@ -20,9 +20,9 @@ NOT_RECEIVED = [
     )
 ]
 NODE, SERVICE, TYPE = (
-    "Find the name of the node is right.",
-    "Find the name of the service is right.",
-    "Find the type of the service is right.",
+    "Find the name of the node.",
+    "Find the name of the service.",
+    "Find the type of the service.",
 )
 TOO_LONG = (
     "The pause is too long. Pause for the time in the argument `pause`, and receive only one number "
@@ -46,7 +46,7 @@ def read_the_graph(context: CheckContext) -> None:
     """Compare the student's names of the node, the service and the type with the right names."""
     with context.goal(NODE):
         context.expect(
-            "the name of the node",
+            "the name of the node is right",
             expected="/SERVER_NODE",
             actual=context.read("name_of_node"),
             hints=[
@@ -84,7 +84,7 @@ def read_the_graph(context: CheckContext) -> None:
         )
     with context.goal(SERVICE):
         context.expect(
-            "the name of the service",
+            "the name of the service is right",
             expected="/getGeometry",
             actual=context.read("name_of_service"),
             hints=[
@@ -123,7 +123,7 @@ def read_the_graph(context: CheckContext) -> None:
         )
     with context.goal(TYPE):
         context.expect(
-            "the type of the service",
+            "the type of the service is right",
             expected="course_pkg/geometry",
             actual=context.read("name_of_type"),
             hints=[

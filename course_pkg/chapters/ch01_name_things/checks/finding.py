@@ -167,7 +167,7 @@ def _in_a_random_order(context: CheckContext) -> None:
         if volume is not None:
             server = context.serve(f"/{place}/{last}", GEOMETRY, lambda _, volume=volume: {"volume": volume})
         context.expect(
-            "None if there is no such service"
+            "the function returns None if there is no such service"
             if volume is None
             else "the volume comes from the right service",
             expected=volume,

@@ -237,8 +237,8 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             hints=[
                 (
                     ("/screen/joint_states",),
-                    "The viewer subscribes to a topic in its own namespace, but no arm "
-                    "publishes there. Remap `joint_states` with `:=`.",
+                    "The viewer subscribes to a topic in its own namespace, but no arm publishes on "
+                    "this topic. Remap `joint_states` with `:=`.",
                 ),
                 (
                     (f"/screen/{arm}/joint_states",),

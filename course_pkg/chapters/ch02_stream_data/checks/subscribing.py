@@ -492,7 +492,7 @@ def _drawn(
     context.require(
         "draw() is called again and again",
         holds=pause < 2.2 * DRAWING,
-        expected=f"a call every {DRAWING} s, because a drawing takes this time",
+        expected=f"a call every {DRAWING} s, because one drawing takes this time",
         actual=f"at least {pause:.2f} s between two calls",
         hints=(
             "draw() was not called often enough, although new angles arrived. Call draw() again as "
@@ -528,8 +528,8 @@ def _drawn(
         expected=list(sent)[-1],
         actual=angles[-1],
         hints=(
-            "The last angle was not drawn. Do not skip angles by number or by time: always draw "
-            "the newest angle."
+            "The last angle was not drawn. Do not skip a fixed number of angles: always draw the "
+            "newest angle."
         ),
     )
 

@@ -151,7 +151,7 @@ def _nobody(context: CheckContext) -> None:
             "poll() does not make more calls than the rate allows",
             expected=f"a pause of {1 / rate:.2f} s between two calls",
             actual=f"{len(counter.asked)} calls, several of them without a pause",
-            hint=f"poll() made several calls in quick succession, and then a long pause. {NO_PAUSE}",
+            hint=f"poll() made several calls without a pause, and then made a long pause. {NO_PAUSE}",
         )
     context.require(
         "poll() does not make more calls than the rate allows",

@@ -99,7 +99,7 @@ def _pairs(context: CheckContext) -> list[Pair]:
         ),
         agrees("an additional comment", f"# measured by {context.random.word()}\n{text}"),
         agrees("a comment after a field", text.replace(above[1], f"{above[1]}  # in metres")),
-        agrees("blank lines", text.replace(below[0], f"\n{below[0]}\n")),
+        agrees("additional blank lines", text.replace(below[0], f"\n{below[0]}\n")),
         agrees("additional spaces in a line", text.replace(above[0], above[0].replace(" ", "   ") + "  ")),
         differs("a different letter in a name", text.replace(names[1], _slip(names[1])), letter),
         differs(

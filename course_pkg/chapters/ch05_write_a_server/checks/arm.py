@@ -24,7 +24,10 @@ START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
 ..."""
 MOVES = "Serve /move_arm and /maintenance, and count the moves."
-CLOSES = "Shut /move_arm down. Return the state after the call, and return whether the state changed."
+CLOSES = (
+    "When /maintenance is called with True, shut /move_arm down. Return the state after the call, "
+    "and whether it changed."
+)
 
 
 @part(
@@ -167,7 +170,10 @@ def _switches(context: CheckContext, response: Message, *, closed: bool, changed
         'the message of /maintenance is "closed" or "open"',
         expected="closed" if closed else "open",
         actual=response.message,
-        hints='The message has to be the state after the call: "closed" for True, "open" for False.',
+        hints=(
+            'The message has to be the state after the call: "closed" for data=True, and "open" for '
+            "data=False."
+        ),
     )
     context.expect(
         "success shows whether the call changed the state",

@@ -116,7 +116,7 @@ def does_it_fit(context: CheckContext) -> None:
                 wait_until(again.watch, RUNS, POLL)
             if again.waited > WAITS:
                 context.fail(
-                    f"{each.case.title}: exit status {each.case.status}",
+                    f"{each.case.title}: the exit status is {each.case.status}",
                     expected="the program ends after about 2 s",
                     actual=f"the program ends after more than {again.waited:.1f} s",
                     hint="The program waits too long for a missing service. Wait at most 2 s.",

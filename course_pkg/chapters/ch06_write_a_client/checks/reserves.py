@@ -225,7 +225,9 @@ def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: M
     for working in context.random.shuffled(used):
         failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]
         context.expect(
-            "if a call fails, the next service is used" if working else "None if no service responds",
+            "if a call fails, the next service is used"
+            if working
+            else "the function returns None if no service responds",
             expected=works.get(working),
             actual=_first_of(context, names, *failing, *filter(None, [working])).returned(),
             near=1e-6,
