@@ -132,16 +132,16 @@ def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
                     (
                         ANYTHING,
                         (
-                            "A Rate object cannot change its rate. After a call of /change_rate, create a "
-                            "new Rate object."
+                            "The rate of a Rate object never changes. After a call of /change_rate, "
+                            "create a new Rate object."
                         ),
                     ),
                 ],
             )
     for impossible in (0.0, -slow, 100.5, float("nan")):
-        refuses(context, change, "impossible rates are refused", rate=impossible)
+        refuses(context, change, "/change_rate refuses impossible rates", rate=impossible)
     context.expect(
-        "after a refusal, the rate is the same as before",
+        "after a refused call, the rate is the same as before",
         expected=fast,
         actual=change(rate=fast).before,
         near=1e-6,

@@ -39,4 +39,4 @@ def require(service: str) -> None:
     try:
         rospy.wait_for_service(service, TIMEOUT)
     except rospy.ROSException as error:
-        sys.exit(f"Gave up after {TIMEOUT:g} s: {error}")
+        sys.exit(f"Ended after {TIMEOUT:g} s: {error}")

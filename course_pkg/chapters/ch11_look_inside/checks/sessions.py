@@ -78,7 +78,7 @@ def totals_of_sessions(context: CheckContext) -> None:
         "node is different.",
     )
     context.expect(
-        "a session continues from another node",
+        "another node can continue a session",
         expected=totals[first] + more,
         actual=answer.total,
         hints=[
@@ -210,7 +210,7 @@ NOT_REFUSED: Hints = [
 
 
 def _refuses_without_a_session(context: CheckContext, kind: ServiceClass) -> None:
-    assertion = "a call without a session is refused with a message that contains the name of the field"
+    assertion = 'the handler refuses a call without a session, and the error message contains "session"'
     for headers in ({}, {"session": ""}):
         try:
             answer = _call(context, kind, 1, headers)

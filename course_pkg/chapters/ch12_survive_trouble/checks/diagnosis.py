@@ -54,7 +54,7 @@ CASES = Cases(
 )
 
 
-@part("12.5", points=2, goal="Find the cause of each of seven problems.", needs=["diagnosis"])
+@part("12.5", points=2, goal="Find the cause of each of the seven problems.", needs=["diagnosis"])
 def diagnose(context: CheckContext) -> None:
     """Compare the student's choice for each case with the right cause."""
     compare_cases(context, "diagnosis", CASES)

@@ -45,10 +45,10 @@ def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) ->
         if pauses[-1] < FIRST:
             break
     context.require(
-        "there is a pause before the next try",
+        "there is a pause before the next attempt",
         holds=min(pauses) < FIRST,
-        expected=f"{PAUSE:g} s after the first try",
-        actual=f"{min(pauses):.2f} s",
+        expected=f"a pause of {PAUSE:g} s after the first attempt",
+        actual=f"a pause of {min(pauses):.2f} s",
         hints=LONG_PAUSE,
     )
 
@@ -69,10 +69,10 @@ def pauses_after_a_timeout(context: CheckContext, name: str, till: FaultyServer)
         if pauses[-1] > 2 * PAUSE:
             break
     context.require(
-        "there is a pause before the next try",
+        "there is a pause before the next attempt",
         holds=max(pauses) > 2 * PAUSE,
-        expected=f"{4 * PAUSE:g} s after the third try",
-        actual=f"{max(pauses):.2f} s",
+        expected=f"a pause of {4 * PAUSE:g} s after the third attempt",
+        actual=f"a pause of {max(pauses):.2f} s",
         hints="There was no pause after a TimeoutError. Sleep after every failed call.",
     )
 
@@ -85,12 +85,15 @@ def ends_without_a_till(context: CheckContext) -> None:
         gone = [(matches("TimesUp"), GONE), *GIVEN_UP]
         result = pay(context, f"/{context.random.word()}", cents, AT_END, gone)
         context.expect(
-            "None when the deadline has passed", expected=None, actual=result.returned(), hints=UNKNOWN
+            "pay() returns None when the deadline has passed",
+            expected=None,
+            actual=result.returned(),
+            hints=UNKNOWN,
         )
         context.require(
-            "pay() uses the whole time until the deadline",
+            "pay() makes attempts until the deadline",
             holds=result.took > AT_WORK,
-            expected=f"tries for {AT_END:g} s",
+            expected=f"attempts during {AT_END:g} s",
             actual=f"an end after {result.took:.1f} s",
             hints=STOPPED,
         )
@@ -98,7 +101,7 @@ def ends_without_a_till(context: CheckContext) -> None:
         if times[-1] < ENDED:
             break
     context.require(
-        "the deadline is kept",
+        "pay() ends at the deadline",
         holds=min(times) < ENDED,
         expected=f"an end after {AT_END:g} s or slightly more",
         actual=f"an end after {min(times):.1f} s",

@@ -153,11 +153,16 @@ def the_sum(context: CheckContext) -> None:
         item = context.random.word()
         for word in (str(amount), item):
             refused(
-                context, till.set, "negative cents are refused with item and cents in the message", word,
+                context, till.set, (
+                    "the till refuses negative cents, and the error message contains the item and the "
+                    "cents"
+                ), word,
                 item=item, cents=amount,
                 hints=[(matches("cannot process request"), NEGATIVE_TEXT), (ANYTHING, NEGATIVE)],
             )  # fmt: skip
-        refused(context, till.set, "an item without a name is refused", "", item="", cents=5, hints=NAMELESS)
+        refused(
+            context, till.set, "the till refuses an item without a name", "", item="", cents=5, hints=NAMELESS
+        )
         _totals(context, total, prices, CHANGED, CHANGED)
 
 
@@ -274,7 +279,9 @@ def _refuses_without_print(
     for name, cents in (item, (next(iter(prices)), 1)):
         before = till.printer.calls
         refused(
-            context, till.set, "if the printer refuses, the till refuses with the printer's message", REASON,
+            context, till.set, (
+                "if the printer refuses a line, the till refuses the item with the printer's message"
+            ), REASON,
             item=name, cents=cents,
             hints=[
                 (matches("TimesUp"), BROKEN),
@@ -283,7 +290,7 @@ def _refuses_without_print(
             ],
         )  # fmt: skip
         context.require(
-            "if the printer refuses, the till refuses with the printer's message",
+            "if the printer refuses a line, the till refuses the item with the printer's message",
             holds=till.printer.calls <= before + 1,
             expected="one call of print_line",
             actual=f"{till.printer.calls - before} calls",
@@ -298,10 +305,12 @@ def _refuses_without_print(
 
 def _prints_no_illegal_item(context: CheckContext, till: Till) -> None:
     before = len(till.printer.lines)
-    refused(context, till.set, "an item without a name is refused", "", item="", cents=5, hints=NAMELESS)
-    refused(context, till.set, "negative cents are refused", "", item="x", cents=-5, hints=NEGATIVE)
+    refused(
+        context, till.set, "the till refuses an item without a name", "", item="", cents=5, hints=NAMELESS
+    )
+    refused(context, till.set, "the till refuses negative cents", "", item="x", cents=-5, hints=NEGATIVE)
     context.expect(
-        "nothing is printed for a refused item",
+        "the till prints nothing for a refused item",
         expected=[],
         actual=till.printer.lines[before:],
         hints=ILLEGAL,
@@ -329,7 +338,7 @@ def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int])
     sums = list(itertools.accumulate((int(cents) for _, _, cents in printed), initial=sum(prices.values())))
     wanted = {name: total for (name, _, _), total in zip(printed, sums[1:], strict=True)}
     context.expect(
-        "each total is the sum of the lines printed so far",
+        "each total is the sum of the printed lines",
         expected=[wanted.get(item) for item, _ in items],
         actual=[reply.response.total for reply in replies],
         hints=ORDER,
@@ -339,7 +348,13 @@ def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int])
 def _refuses_without_printer(context: CheckContext, till: Till, item: str, cents: int) -> None:
     till.server.leave()
     refused(
-        context, till.set, "without a printer, the till refuses", "", item=item, cents=cents, hints=NO_PRINTER
+        context,
+        till.set,
+        "without a printer, the till refuses an item",
+        "",
+        item=item,
+        cents=cents,
+        hints=NO_PRINTER,
     )
 
 
@@ -445,14 +460,14 @@ def _waits_for_a_line(context: CheckContext, till: Till, reset: Service, total: 
         waited = time.monotonic() - started
         setting.result()
     context.require(
-        "a reset waits for the line that is being printed",
+        "a reset waits until the current line is printed",
         holds=waited > HOLDING - 0.1,
         expected="a response after the line was printed",
         actual="a response before the line was printed",
         hints=TOO_EARLY,
     )
     context.expect(
-        "the sum that was paid contains the item of this line",
+        "the paid sum contains the cents of this item",
         expected=f"paid {first[1] + second[1]} cents",
         actual=response.message,
         hints=NOT_COUNTED,

@@ -181,7 +181,7 @@ def the_visits(context: CheckContext) -> None:
         context.fulfilled(GREETED)
         wait_until(lambda: alone.patiences or default.status is not None, NEXT_CALL)
         context.expect(
-            "without the parameter, the patience is 2 s",
+            "without the parameter, the field `patience` is 2 s",
             expected=[2.0],
             actual=alone.patiences[:1],
             near=1e-6,
@@ -281,7 +281,7 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
         )
         wanted = detector.wait if step.waits else 0.0
         context.require(
-            "the patience is ~wait, and 0 during a visit",
+            "the field `patience` is the value of ~wait, and 0 during a visit",
             holds=abs(call.patience - wanted) < 1e-3,
             expected=f"`patience` {wanted:g} {after}",
             actual=f"`patience` {call.patience:g}",
@@ -319,7 +319,7 @@ def _mirrors_meanwhile(context: CheckContext, mirrored: Subscription, call: Call
     wait_until(lambda: time.monotonic() > call.answered, STANDING + 1.0)
     meanwhile = [each for each in mirrored.arrivals if call.came + 0.2 < each.at < call.answered]
     context.require(
-        "the node mirrors the arm while a call waits",
+        "the node mirrors the arm during a call of detect_customer",
         holds=len(meanwhile) > 2,
         expected="an image every 50 ms",
         actual=f"{len(meanwhile)} images in 1 s",
@@ -332,7 +332,7 @@ def _mirrors_in_visit(context: CheckContext, mirrored: Subscription, calls: list
     began, ended = calls[1].answered + 0.2, calls[VISITS_END[0] - 1].came
     meanwhile = [each for each in mirrored.arrivals if began < each.at < ended]
     context.require(
-        "the node mirrors the arm while a call waits",
+        "the node mirrors the arm during a call of detect_customer",
         holds=len(meanwhile) > 2,
         expected="an image every 50 ms during a visit, too",
         actual=f"{len(meanwhile)} images during a visit",
@@ -374,7 +374,7 @@ def _greets(context: CheckContext, greetings: Subscription, till: Till) -> None:
         actual=f"{len(texts)} greetings",
         hints=NOT_GREETED if len(texts) < 2 else GREETED_AGAIN,
     )
-    context.expect(f"the greeting is {GREETING}", expected=[GREETING] * 2, actual=texts, hints=TEXT)
+    context.expect(f'the greeting is "{GREETING}"', expected=[GREETING] * 2, actual=texts, hints=TEXT)
     context.require(
         "the node resets the till once after each visit",
         holds=till.resets == VISITS_END,

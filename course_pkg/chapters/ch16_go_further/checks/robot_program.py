@@ -91,9 +91,9 @@ def offers_what_fits(context: CheckContext, robot: Robot) -> None:
     for name, kind in FITTING.items():
         actual = kind_of(seen, robot, name)
         context.require(
-            f"{name} has the kind of interface that fits",
+            f"{name} has the right kind of interface",
             holds=actual == kind,
-            expected="an interface that fits",
+            expected="the right kind of interface",
             actual=f"{'an' if actual == 'action' else 'a'} {actual}" if actual else "nothing with this name",
             hints=UNFIT[name] if actual else ABSOLUTE if _elsewhere(seen, robot, name) else MISSING,
         )
