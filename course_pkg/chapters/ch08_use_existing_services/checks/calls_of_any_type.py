@@ -99,15 +99,15 @@ def call_of_any_type(context: CheckContext) -> None:
 
 def _is_an_error(context: CheckContext, wrong: Result, server: ScriptedServer, stray: str) -> None:
     context.require(
-        "a field name that the type does not have causes an error",
+        "an unknown field name causes an error",
         holds=bool(wrong.error) and not server.requests and not wrong.error.startswith("ROSServiceException"),
-        expected=f"an error about {stray}",
+        expected=f"an error for the field {stray}",
         actual=wrong.error or "no error, and a call of the service without this field",
         hints=[
             (
                 matches("^ROSServiceException"),
-                "rosservice.call_service raises its own exception instead of the exception of "
-                "genpy. Fill the request with genpy.message.",
+                "rosservice.call_service raises its own exception instead of the exception of genpy. "
+                "Fill the request with genpy.message.fill_message_args.",
             ),
             (
                 ANYTHING,

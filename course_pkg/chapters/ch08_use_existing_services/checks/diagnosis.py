@@ -44,7 +44,8 @@ ERRORS: Hints = [
     ),
     (
         matches("^KeyError"),
-        "The dict that get_service_headers returns has no such key. Use the entries `type` and `md5sum`.",
+        "Your function uses a key that the dict of get_service_headers does not have. Use the keys "
+        "`type` and `md5sum`.",
     ),
 ]
 OTHER_RESULTS: Hints = [

@@ -161,8 +161,8 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
             ),
             (
                 ANYTHING,
-                "Your list does not contain only names. Return only the names of the services, without "
-                "nodes and types.",
+                "The entries of your list have to be strings. Return only the names of the services, "
+                "without nodes and types.",
             ),
         ],
     )

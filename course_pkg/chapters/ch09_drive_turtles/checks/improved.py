@@ -32,8 +32,14 @@ NO_REFUSAL = (
 SETS_RATE = "/change_rate sets the rate"
 SPEED_SO_FAR = "the response of /change_speed contains the speed before the call"
 SETS_ITS_RATE = "Publish the velocities at the rate that /change_rate sets."
-SETS_ITS_SPEED = "Set the speed with /change_speed, and the direction with /toggle_forward."
-IMPROVED_GOALS = {SETS_ITS_RATE: 2, SETS_ITS_SPEED: 3, "Stop and start the turtle with /start_stop.": 3}
+SETS_ITS_SPEED = (
+    "Change the speed in the handler of /change_speed, and the direction in the handler of /toggle_forward."
+)
+IMPROVED_GOALS = {
+    SETS_ITS_RATE: 2,
+    SETS_ITS_SPEED: 3,
+    ("Stop and start the turtle in the handler of /start_stop."): 3,
+}
 
 
 @part(

@@ -116,8 +116,8 @@ _UNREADABLE: Hints = [
     ),
     (
         matches("cannot override arg"),
-        "The <arg> tag gives the argument a fixed value, so the command cannot change this value. Write "
-        "default=, not value=, in the <arg> tag.",
+        "The <arg> tag gives the argument a fixed value, so the command cannot change this value. In "
+        "the <arg> tag, write default= instead of value=.",
     ),
     (
         matches("not a 'bool' type"),

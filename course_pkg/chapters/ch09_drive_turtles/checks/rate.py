@@ -65,7 +65,7 @@ if __name__ == "__main__":
         rate.sleep()
 """
 CHANGED = "Change the rate, return the old rate, and refuse impossible rates."
-RATE_GOALS = {CHANGED: 3, "Change only the direction with /toggle_forward.": 1}
+RATE_GOALS = {CHANGED: 3, "In the handler of /toggle_forward, change only the direction of the turtle.": 1}
 
 
 @part(

@@ -202,8 +202,8 @@ def _called(context: CheckContext, count: int, gate: Gate) -> None:
             (
                 0,
                 (
-                    "The service was not called. Call the service in each thread. If you pass `args` "
-                    "to Thread, write a tuple, such as (name,)."
+                    "The service was not called. Call the service in each thread, and pass a tuple "
+                    "such as (name,) as the argument `args` of Thread."
                 ),
             ),
             (

@@ -170,7 +170,7 @@ def _nobody(context: CheckContext, detect: Service) -> None:
         response = detect(after=0, patience=patience)
         _no(context, response)
         context.require(
-            "without a customer, the response comes when the time is over",
+            "without a customer, the handler responds after request.patience seconds",
             holds=patience - 0.1 <= detect.took < patience + SLACK,
             expected=f"a response after {patience:g} s",
             actual=f"a response after {detect.took:.1f} s",
@@ -237,8 +237,8 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
         expected=f"a customer with a number above {known}",
         actual=known,
         hints=(
-            "The handler returned a customer who is already known to the client. Pass request.after "
-            "to watch.next(), which then returns only higher numbers."
+            "The handler returned a customer who is already known to the client. Pass request.after to "
+            "watch.next(), which then returns only customers with higher numbers."
         ),
     )
     _found(context, detect, response, coming)
@@ -250,7 +250,9 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
         "if a customer comes, the handler responds immediately",
         holds=not rarely,
         expected="a thread that waits for a notification",
-        actual=f"fewer than {SELDOM} calls of watch.next() in {LONG:g} s, and no wait between them",
+        actual=(
+            f"fewer than {SELDOM} calls of watch.next() in {LONG:g} s, and no call of wait() between them"
+        ),
         hints=RARELY,
     )
     for number in range(coming + 1, coming + ATTEMPTS):
@@ -263,7 +265,7 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
         "if a customer comes, the handler responds immediately",
         holds=late < PROMPT,
         expected="a thread that waits for a notification",
-        actual=f"a response {late:.1f} s after the customer",
+        actual=f"a response {late:.1f} s after the arrival of the customer",
         hints=RARELY,
     )
 
@@ -274,8 +276,8 @@ def _same_time(context: CheckContext, response: Message, again: Message) -> None
     context.require(
         SINCE_WHEN,
         holds=difference == 0,
-        expected="0 s between the times in two responses",
-        actual=f"{difference:.4f} s",
+        expected="the same time in both responses",
+        actual=f"a difference of {difference:.4f} s",
         hints=(
             "Two calls for the same customer returned different times. Return customer.arrived, the "
             "time at which the customer was first seen."
@@ -343,7 +345,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
     for reply in vain:
         _no(context, reply.response)
         context.require(
-            "without a customer, the response comes when the time is over",
+            "without a customer, the handler responds after request.patience seconds",
             holds=patience - 0.1 <= reply.took < patience + SLACK,
             expected=f"a response after {patience:g} s",
             actual=f"a response after {reply.took:.1f} s",

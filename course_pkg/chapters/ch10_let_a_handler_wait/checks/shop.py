@@ -33,7 +33,7 @@ LOCKED = (
 )
 SERIAL = (
     "The till received only a few calls at the same time, because your handler holds a lock or a "
-    "semaphore during the call. Release it before you call the till's service."
+    "semaphore during the call. Release the lock or semaphore before you call the till's service."
 )
 STUCK = (
     "A client waits forever, because a lock was not released. Use `with`, which releases the lock "
@@ -156,7 +156,7 @@ def no_lock_across_a_call(context: CheckContext) -> None:
     context.prepare(KERNEL_CODE)
     context.serve(charge, CHARGE, till)
     services = {buy: "handle_buy", left: "handle_left"}
-    worded = f"Shop(shelf, {cents}, the till) with {count} on the shelf"
+    worded = f"Shop(shelf, {cents}, the till) with {count} things on the shelf"
     opened = _opened(context, shelf, services, cents, charge, worded)
     context.require(
         "a Shop can be created from a shelf, a price and the name of a till",

@@ -94,7 +94,7 @@ def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: floa
         Its("Stock"),
         Its("checked_shelf"),
         services,
-        worded=f"Stock(shelf) with {shelf.things} on it",
+        worded=f"Stock(shelf) with {shelf.things} things on the shelf",
     )
     context.require("a Stock can be created with a shelf", holds=not opened.error, actual=opened.error)
     return context.service(name, TRIGGER, hints=ERRORS, timeout=timeout)
@@ -128,7 +128,13 @@ def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
                     "you sell a thing."
                 ),
             ),
-            (False, "A thing was there, but `success` has its default value, False. Set `success` to True."),
+            (
+                False,
+                (
+                    "The shelf was not empty, but `success` has its default value, False. Set `success` to "
+                    "True."
+                ),
+            ),
         ],
     )
     context.expect(
@@ -174,13 +180,13 @@ def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count:
     sold = [reply.message for reply in replies if reply.success]
     if not shelf.together:
         context.fail(
-            f"{CALLERS} clients at the same time: the number of sales is the number of things",
+            f"{CALLERS} clients at the same time: the number of sales is equal to the number of things",
             expected="several handlers at the same time",
             actual="one handler after the other",
             hint=ONE_BY_ONE,
         )
     context.expect(
-        f"{CALLERS} clients at the same time: the number of sales is the number of things",
+        f"{CALLERS} clients at the same time: the number of sales is equal to the number of things",
         expected=count,
         actual=len(sold),
         hints=_wrong_number_sold(count),

@@ -315,8 +315,8 @@ def move_without_deadlock(context: CheckContext) -> None:
         expected=THREADS * MOVES,
         actual=pair.results.count(True),
         hints=(
-            "A call moved nothing, although the shelf was not empty. If another thread holds a lock, wait "
-            "for the lock. Acquire the two locks in the order of their numbers."
+            "A call moved nothing, although the shelf was not empty. If another thread holds a lock, "
+            "wait for the lock, and acquire the two locks in the order of their numbers."
         ),
     )
     _both_locks(context, pair)

@@ -185,7 +185,7 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed(fields, joint=": "),
-            "The text between name and value is wrong. Write only an equals sign, without spaces.",
+            "The text between the name and the value is wrong. Write only an equals sign, without spaces.",
         ),
         (
             _packed(fields, lengths=False),
@@ -427,7 +427,7 @@ def _receive_errors(count: int = 1) -> Hints:
         ),
         (
             matches("^(TimeoutError|timeout|BlockingIOError)"),
-            "The function gave up while it waited for the next piece. Wait in recv() without a time limit.",
+            "The function stopped while it waited for the next piece. Call recv() without a time limit.",
         ),
         (
             matches("^(Connection|BrokenPipe)"),

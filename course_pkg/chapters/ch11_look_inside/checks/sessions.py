@@ -197,14 +197,14 @@ NOT_REFUSED: Hints = [
     (
         matches("returned None"),
         (
-            "The handler returned None, so the client got an error message of rospy. Raise "
+            "The handler returned None, so rospy sent its own error message to the client. Raise "
             'rospy.ServiceException with a message that contains the word "session".'
         ),
     ),
     (
         ANYTHING,
-        'The error message does not contain the word "session". Write the name of the '
-        "missing field into the message.",
+        'The error message does not contain the word "session". Add the name of the missing field to '
+        "the message.",
     ),
 ]
 

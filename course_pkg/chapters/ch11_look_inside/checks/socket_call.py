@@ -87,8 +87,8 @@ SLOWLY = (
     "including the first byte and the lengths."
 )
 NOT_DECODED = (
-    "The error message contained letters outside of ASCII, and your function could not decode them. Call "
-    "decode() without an argument to use UTF-8."
+    "The error message contained letters that are not in ASCII, and your function could not decode "
+    "them. Call decode() without an argument to use UTF-8."
 )
 BYTES = "The error message is a bytes object, not a string. Convert the bytes with decode()."
 OPEN = (
@@ -123,7 +123,7 @@ def call_over_a_socket(context: CheckContext) -> None:
         "the function uses only a socket",
         holds=not ROS_CLIENTS & _names(context.source("ask")),
         expected="a socket",
-        actual="a call with a client of ROS",
+        actual="a call with a ROS client, such as rospy.ServiceProxy",
         hints=NO_PROXY,
     )
     context.prepare(WITHOUT_ROS)

@@ -17,7 +17,7 @@ RIGHT = {
 }
 DECISIVE = {
     "A": "The master has an address for the name, but no process accepts connections at this address.",
-    "B": "Connections that are already open still work. Only the lookup of the name fails.",
+    "B": "The open connections continue to work. Only the lookup of the name fails.",
     "C": "No service of this node responds, not even get_loggers.",
     "D": (
         "The service get_loggers responds, so the process runs. The handlers of the other two services "

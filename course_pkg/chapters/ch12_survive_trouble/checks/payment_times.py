@@ -22,7 +22,7 @@ GONE = (
     "remaining time as the limit of each wait."
 )
 STOPPED = (
-    "pay() ended before the deadline. Try again until the time in the argument `deadline` (in "
+    "pay() ended before the deadline. Repeat the call until the time in the argument `deadline` (in "
     "seconds) is over."
 )
 LONG_PAUSE = (

@@ -61,7 +61,7 @@ ONLY_TAKE = (
 )
 SAME_NUMBER = "Two requests got the same receipt number. Hold the lock while you count the receipts."
 ANOTHER_TILL = (
-    "A second Till uses the receipts of the first Till, so it treated a new request as a "
+    "A second Till object used the receipts of the first Till object, so it treated a new request as a "
     "repetition. Create the dict in __init__, and store it in self."
 )
 NOTHING = "The handler returned None. Return a ChargeResponse in every case."
@@ -210,8 +210,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
         expected="two receipts",
         actual=f"{receipt} twice",
         hints=(
-            "Two purchases got the same receipt. Give each purchase a new number, for example the "
-            "number of receipts so far."
+            "Two purchases got the same receipt. Give each purchase a new number, for example from a counter."
         ),
     )
     for again, before in ((first, receipt), (second, other), (first, receipt)):
@@ -265,7 +264,7 @@ def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service
     context.require(
         "the till charges a failed request when the client sends it again",
         holds=charged == 1 or all(reply.error for reply in replies),
-        expected="one charge for a receipt",
+        expected="a receipt, and one charge",
         actual=f"a receipt, and {charged} charges",
         hints=TOO_SOON,
     )

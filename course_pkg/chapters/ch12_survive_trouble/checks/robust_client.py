@@ -51,7 +51,7 @@ FAULTS = {
     "shut down and started again": [Fault(Crash(AWAY, unregisters=True))],
 }
 PAID = "Pay at a till that works, and do not repeat a refused payment."
-REPEATED = "Pay exactly once at a till that fails and recovers."
+REPEATED = "Pay exactly once at a till that fails and later works again."
 
 
 @part(
@@ -283,7 +283,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
     context.require(
         "each pause is longer than the previous pause",
         holds=pauses[2] > 3.5 * PAUSE,
-        expected=f"{4 * PAUSE:g} s before the fourth attempt",
+        expected=f"a pause of {4 * PAUSE:g} s before the fourth attempt",
         actual=f"{pauses[2]:.2f} s",
         hints=SLOW_GROWTH,
     )
@@ -297,7 +297,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         context.require(
             "each pause is longer than the previous pause",
             holds=pause > 0.95 * longest,
-            expected=f"{longest:g} s before attempt {MOST + 1}",
+            expected=f"a pause of {longest:g} s before attempt {MOST + 1}",
             actual=f"{pause:.2f} s",
             hints=SLOW_GROWTH,
         )

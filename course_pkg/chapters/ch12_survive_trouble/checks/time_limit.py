@@ -205,7 +205,7 @@ def _responds(context: CheckContext, name: str, adder: Adder, limit: float = LON
         expected="an immediate return",
         actual=f"a return after {result.took:.1f} s",
         hints=(
-            "The function still waited after the response had arrived. Replace the sleep by "
+            "The function still waited after the response had arrived. Replace the sleep with "
             "join(seconds), which returns as soon as the thread has ended."
         ),
     )

@@ -188,7 +188,10 @@ def _is_registered(
         actual="no provider of this name",
         hints=hint
         if asked
-        else "The watchdog did not call the master that was passed to it. Call the methods of self.master.",
+        else (
+            "The watchdog did not use the argument `master`. Store this argument in self, and call its "
+            "methods."
+        ),
     )
     context.require(
         "the watchdog registers the address of the service and the address of the node",
@@ -212,10 +215,10 @@ def _leaves_the_name(context: CheckContext, master: MasterClient, name: str) -> 
         "the watchdog does not register a name that another node has registered",
         holds=not fought,
         expected="the other node's address",
-        actual="the address of the student's service",
+        actual="the address of your service",
         hints=(
             "Another node provides this service now, but the watchdog registered its own service. "
-            "Register only if the master knows no provider."
+            "Register the service only if the master knows no provider of the name."
         ),
     )
 

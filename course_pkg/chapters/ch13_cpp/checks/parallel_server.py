@@ -139,10 +139,12 @@ def _still_thinks(context: CheckContext, code: str, time: float, took: float, mo
     `took` is the duration of a call in s, or 0 if the text of think() was changed.
     """
     context.require(
-        "think() and count() take as long as before",
+        "think() and count() take as long as in the original program",
         holds=len(re.findall(r"\bsleep\(\)", code)) >= 2 and "think()" in code and 0.98 * time < took < most,
         expected=(f"the original think() and count(), which take {time:.2f} s for each client in this check"),
-        actual="a server without these pauses" if took == time else f"{took:.2f} s for a client",
+        actual="a server without the pauses of these functions"
+        if took == time
+        else f"{took:.2f} s for a client",
         hints=(
             "The functions think() and count() simulate long calculations, so do not change the "
             "duration of their sleep. Use several threads, so that the calls run at the same time."

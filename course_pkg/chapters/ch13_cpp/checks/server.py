@@ -115,7 +115,7 @@ def _measures(context: CheckContext, box: Service, scale: float = 1.0) -> None:
         height,
         area=_wrong_area(length, width),
         volume=_wrong_volume(area, height),
-        assertion="area is length times width, with the part after the decimal point",
+        assertion="area is length times width, with the digits after the decimal point",
     )
 
 

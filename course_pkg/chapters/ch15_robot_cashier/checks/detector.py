@@ -129,8 +129,8 @@ def _finds(context: CheckContext, detect: Service, patience: float, hint: str, w
         expected="an immediate response",
         actual=f"a response after {detect.took:.1f} s",
         hints=(
-            "A customer was there before the call, but the handler waited. Check first, and wait only "
-            "if no customer is there."
+            "A customer was there before the call, but the handler waited. First check for a customer, "
+            "and wait only if no customer is there."
         ),
     )
 

@@ -212,8 +212,8 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         (
             lambda actual: set(stamps) - set(actual) == {FIRST + EFFORT},
             (
-                "The node ignored a joint state with an infinite effort, which is valid. Check only "
-                "positions and velocities with math.isfinite."
+                "The node ignored a joint state with an infinite effort, but this joint state is "
+                "valid. Check only positions and velocities with math.isfinite."
             ),
         ),
         (
@@ -234,8 +234,8 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         (
             lambda actual: set(stamps) - set(actual) <= {FIRST + 5 * n for n in range(6)},
             (
-                "The node ignored a joint state without velocities, which is valid. Publish the mirror "
-                "image, because many robots send no velocities."
+                "The node ignored a joint state without velocities, but this joint state is valid. "
+                "Publish the mirror image, because many robots send no velocities."
             ),
         ),
         (

@@ -88,8 +88,8 @@ def _items(context: CheckContext, count: int) -> list[tuple[str, int]]:
 
 NOT_ADDED = "The total is wrong. Return the sum of the cents of all items, including the item of this call."
 TWICE = (
-    "The total contains the old price and the new price of an item. If the same item is set again, "
-    "replace its old price."
+    "The total contains the old price and the new price of an item. If a client sets the same item "
+    "again, replace the old price."
 )
 FREE = "An item that costs 0 cents is missing. Store and count this item like all other items."
 CASE = (
@@ -405,8 +405,8 @@ LEFT = (
     goals={
         EMPTIED: 3,
         (
-            "If a line is being printed, wait until it is printed. "
-            "Reset the till even if there is no printer."
+            "If the printer is printing a line, wait until the line is printed. Reset the till even if "
+            "there is no printer."
         ): 1,
     },
 )

@@ -160,7 +160,13 @@ def _valid_frames(context: CheckContext, width: int, height: int) -> list[Frame]
                 Style(),
                 TENTH,
             ),
-            ("a frame with one dark point less shows no customer", tenth - 1, False, Style(), ROUNDED),
+            (
+                "a frame shows no customer if less than a tenth of its points is dark",
+                tenth - 1,
+                False,
+                Style(),
+                ROUNDED,
+            ),
             ("a point with the value 96 is not dark", 2 * tenth, False, Style(dark=(DARK, DARK)), LIMIT),
             ("the node ignores the padding at the end of each row", 0, False, Style(padding=7), PADDING),
             (
@@ -173,7 +179,7 @@ def _valid_frames(context: CheckContext, width: int, height: int) -> list[Frame]
         )
     ] + [
         Frame(
-            "a frame with one dark point less shows no customer",
+            "a frame shows no customer if less than a tenth of its points is dark",
             image_of(context, odd_width, odd_height, odd_dark),
             customer=False,
             hint=ROUNDED,

@@ -59,7 +59,7 @@ EXECUTED = "Publish feedback after each thing, and the result at the end."
     ),
     needs=["Fetcher"],
     deadline=60.0,
-    goals={EXECUTED: 2, "Stop when the goal is cancelled, and accept a goal with 0 things.": 1},
+    goals={EXECUTED: 2, "Stop when a client cancels the goal, and accept a goal with 0 things.": 1},
 )
 def executed_goal(context: CheckContext) -> None:
     """Create an object of the student's class; send goals with different times, and cancel one goal."""
@@ -170,7 +170,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
         hints=_wrong_number_fetched(things),
     )
     context.require(
-        "for each thing, the server needs the time in goal.seconds",
+        "the server needs goal.seconds seconds for each thing",
         holds=took > 0.9 * things * each and _pace(at, took / things) < LONG[0] / 2,
         expected=f"about {things * each:.2f} s for {things} things",
         actual=f"{took:.2f} s",
@@ -212,8 +212,8 @@ def _is_on_time(context: CheckContext, at: list[float], began: float, each: floa
     context.require(
         "the feedback arrives after the server has fetched the thing",
         holds=at[0] - began > 0.9 * each,
-        expected=f"the first after {each:.2f} s",
-        actual=f"the first after {at[0] - began:.3f} s",
+        expected=f"the first feedback after {each:.2f} s",
+        actual=f"the first feedback after {at[0] - began:.3f} s",
         hints="The feedback came before the robot had fetched the thing. First sleep, and then publish.",
     )
 
@@ -225,7 +225,7 @@ def _takes_long_for_a_long_thing(context: CheckContext, client: actionlib.Simple
     _ends_as(context, client, "the server executes a goal to its end", GoalStatus.SUCCEEDED)
     took = time.monotonic() - began
     context.require(
-        "for each thing, the server needs the time in goal.seconds",
+        "the server needs goal.seconds seconds for each thing",
         holds=took > 1.9 * each,
         expected=f"about {2 * each:.2f} s for 2 things",
         actual=f"{took:.2f} s",

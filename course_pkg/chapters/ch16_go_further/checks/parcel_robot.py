@@ -48,7 +48,7 @@ if __name__ == "__main__":
     # Write your node: imports above, functions or a class above this block, the rest here.
 """
 DELIVERED = "Deliver parcels with feedback, and publish the charge of the battery."
-STOPPED = "Stop when the delivery is cancelled."
+STOPPED = "Stop when a client cancels the delivery."
 LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows."
 
 
@@ -302,7 +302,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
     _ends_as(
         context,
         client,
-        "a delivery of as many parcels as the capacity succeeds",
+        "a delivery succeeds if the number of parcels is equal to the capacity",
         GoalStatus.SUCCEEDED,
         (
             "The robot refused an allowed delivery. Abort a goal only if it has more parcels than "
@@ -321,7 +321,7 @@ def _aborts_at_once(
     _ends_as(
         context,
         client,
-        "a delivery of more parcels than the capacity is aborted",
+        "the robot aborts a delivery if the number of parcels is above the capacity",
         GoalStatus.ABORTED,
         (
             "The delivery was not aborted, although it has more parcels than the capacity. Compare "
