@@ -214,7 +214,7 @@ def _spawns_in_the_simulator(context: CheckContext, world: World) -> None:
         "MyTurtle is in the simulator, at (3, 3)",
         holds=bool(poses) and [poses[0].fields[key] for key in ("x", "y")] == [3.0, 3.0],
         expected="a pose of MyTurtle",
-        actual="no such pose",
+        actual="no pose of MyTurtle at this position",
     )
 
 
@@ -252,8 +252,8 @@ def _gives_up(context: CheckContext, world: World, running: Running, began: floa
     context.require(
         GIVES_UP,
         holds=done.status is not None,
-        expected="an end after 5 s",
-        actual="a program that still waits after 7 s",
+        expected="the program ends after 5 s",
+        actual="the program still waits after 7 s",
         hints=(
             "The program waits too long for the service, or without a time limit. Set the timeout of "
             "the wait to 5 s."
@@ -262,8 +262,8 @@ def _gives_up(context: CheckContext, world: World, running: Running, began: floa
     context.require(
         GIVES_UP,
         holds=took >= EARLY or looked - began >= EARLY,
-        expected="an end after 5 s",
-        actual=f"an end after {took:.0f} s",
+        expected="the program ends after 5 s",
+        actual=f"the program ended after {took:.0f} s",
         hints=NO_WAIT
         if took < NO_WAIT_ENDS
         else (

@@ -365,7 +365,7 @@ def _sells_to_fifty(
     context.require(
         f"{CALLERS} clients at the same time: each purchase has its own request_id",
         holds=len(set(till.ids)) == len(till.ids),
-        expected="as many ids as purchases",
+        expected="a different id for each purchase",
         actual="the same id twice",
         hints=(
             "Two purchases have the same request_id. In the handler, create a new request_id for each call."

@@ -222,7 +222,7 @@ def _answers(context: CheckContext, *, slowly: bool) -> None:
         "ask() returns area and volume",
         holds=not conversation.left_open,
         expected="a client that closes the connection after the response",
-        actual=f"an open connection {LINGER:g} s later",
+        actual=f"a connection that was still open {LINGER:g} s later",
         hints=UNTIL_THE_END if result.took > LINGER else OPEN,
     )
 

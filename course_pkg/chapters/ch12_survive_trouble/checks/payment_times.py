@@ -94,7 +94,7 @@ def ends_without_a_till(context: CheckContext) -> None:
             "pay() makes attempts until the deadline",
             holds=result.took > AT_WORK,
             expected=f"attempts during {AT_END:g} s",
-            actual=f"an end after {result.took:.1f} s",
+            actual=f"pay() ended after {result.took:.1f} s",
             hints=STOPPED,
         )
         times.append(result.took)
@@ -103,7 +103,7 @@ def ends_without_a_till(context: CheckContext) -> None:
     context.require(
         "pay() ends at the deadline",
         holds=min(times) < ENDED,
-        expected=f"an end after {AT_END:g} s or slightly more",
-        actual=f"an end after {min(times):.1f} s",
+        expected=f"pay() ends after {AT_END:g} s or slightly more",
+        actual=f"pay() ended after {min(times):.1f} s",
         hints=OVERSLEPT,
     )

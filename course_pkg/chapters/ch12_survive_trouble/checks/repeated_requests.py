@@ -207,8 +207,8 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
     context.require(
         "another request gets a different receipt",
         holds=other != receipt,
-        expected="two receipts",
-        actual=f"{receipt} twice",
+        expected="two different receipts",
+        actual=f"the receipt {receipt} for both requests",
         hints=(
             "Two purchases got the same receipt. Give each purchase a new number, for example from a counter."
         ),

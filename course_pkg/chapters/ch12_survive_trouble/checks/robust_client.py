@@ -315,8 +315,8 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
     context.require(
         "pay() ends at the deadline",
         holds=result.took < SHORT + SLACK,
-        expected=f"an end after {SHORT:g} s or slightly more",
-        actual=f"an end after {result.took:.1f} s",
+        expected=f"pay() ends after {SHORT:g} s or slightly more",
+        actual=f"pay() ended after {result.took:.1f} s",
         hints=(
             "pay() was still running after the deadline. Check the remaining time before each call and "
             "before each pause."
@@ -326,7 +326,7 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
         "pay() makes attempts until the deadline",
         holds=result.took > SHORT / 3,
         expected=f"attempts during {SHORT:g} s",
-        actual=f"an end after {result.took:.1f} s",
+        actual=f"pay() ended after {result.took:.1f} s",
     )
     till.plan.clear()
 

@@ -202,8 +202,8 @@ def _responds(context: CheckContext, name: str, adder: Adder, limit: float = LON
     context.require(
         "the function returns the response as soon as it arrives",
         holds=result.took < WORK + SLACK + 0.5,
-        expected="an immediate return",
-        actual=f"a return after {result.took:.1f} s",
+        expected="the function returns immediately",
+        actual=f"the function returned after {result.took:.1f} s",
         hints=(
             "The function still waited after the response had arrived. Replace the sleep with "
             "join(seconds), which returns as soon as the thread has ended."
@@ -269,7 +269,7 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         "the function waits until the time limit is reached",
         holds=limit - 0.1 < result.took < limit + SLACK,
         expected=f"TimeoutError after {limit:g} s",
-        actual=f"an end after {result.took:.1f} s",
+        actual=f"the function ended after {result.took:.1f} s",
         hints="The function did not wait for the given time. Pass `seconds` to join().",
     )
     context.require(

@@ -229,7 +229,7 @@ def _registers_both_addresses(context: CheckContext, watched: CheckedMaster, uri
         "the watchdog registers the address of the service and the address of the node",
         holds=given == [uri, node_uri],
         expected="the address of the service, and then rospy.get_node_uri()",
-        actual=", ".join(given) or "no registration by the given master",
+        actual=", ".join(given) or "no registration at the given master",
         hints=(
             "The last argument of registerService() is wrong. Pass rospy.get_node_uri(), which is the "
             "address of the node."

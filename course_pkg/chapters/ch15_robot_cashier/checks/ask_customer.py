@@ -295,7 +295,7 @@ def _gives_up(context: CheckContext, run: Run) -> None:
     context.require(
         "without a service, the program ends after 3 s with a message, and its exit status is 1",
         holds=run.status == 1 and bool(run.lines) and "Traceback" not in run.out,
-        expected="a message (exit status 1)",
+        expected="a message and exit status 1",
         actual=run.last,
         hints=[
             (lambda _: run.status is None, FOREVER),

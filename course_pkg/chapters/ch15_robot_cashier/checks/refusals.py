@@ -28,7 +28,7 @@ def refused(
     context.require(
         "the handler refuses the call with a rospy.ServiceException",
         holds=bool(BY_HANDLER.search(text)),
-        expected="cannot process request, and the message",
+        expected='an error that contains "cannot process request" and your message',
         actual=text,
         hints=BUG,
     )

@@ -153,13 +153,14 @@ def the_sum(context: CheckContext) -> None:
         item = context.random.word()
         for word in (str(amount), item):
             refused(
-                context, till.set, (
-                    "the till refuses negative cents, and the error message contains the item and the "
-                    "cents"
-                ), word,
-                item=item, cents=amount,
+                context,
+                till.set,
+                "the till refuses negative cents, and the error message contains the item and the cents",
+                word,
+                item=item,
+                cents=amount,
                 hints=[(matches("cannot process request"), NEGATIVE_TEXT), (ANYTHING, NEGATIVE)],
-            )  # fmt: skip
+            )
         refused(
             context, till.set, "the till refuses an item without a name", "", item="", cents=5, hints=NAMELESS
         )
@@ -279,16 +280,18 @@ def _refuses_without_print(
     for name, cents in (item, (next(iter(prices)), 1)):
         before = till.printer.calls
         refused(
-            context, till.set, (
-                "if the printer refuses a line, the till refuses the item with the printer's message"
-            ), REASON,
-            item=name, cents=cents,
+            context,
+            till.set,
+            "if the printer refuses a line, the till refuses the item with the printer's message",
+            REASON,
+            item=name,
+            cents=cents,
             hints=[
                 (matches("TimesUp"), BROKEN),
                 (matches("cannot process request"), REASONLESS),
                 (ANYTHING, NOT_REFUSED),
             ],
-        )  # fmt: skip
+        )
         context.require(
             "if the printer refuses a line, the till refuses the item with the printer's message",
             holds=till.printer.calls <= before + 1,

@@ -278,7 +278,9 @@ def _goes_on(context: CheckContext) -> None:
         "fetch_within() cancels a goal that does not end in time",
         holds=not endless and result.took < STUBBORN,
         expected=f"a function that ends at most {WAIT:g} s after the cancellation",
-        actual="a function that does not end" if endless else f"an end after {result.took:.1f} s",
+        actual="a function that does not end"
+        if endless
+        else (f"a function that ended after {result.took:.1f} s"),
         hints=(
             "The robot ignored the cancellation, so the function waited too long. Wait at most 2 s "
             "after cancel_goal()."
