@@ -629,7 +629,7 @@ replace('"not printed: " + str(e)', '"not printed"')
 # %% 15.8 wrong: counts first | hint: The line was not printed, but the till changed its stored prices
 based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
-# %% 15.8 wrong: waits for a printer | hint: Do not wait for this service without a time limit
+# %% 15.8 wrong: waits for a printer | hint: The service print_line does not
 replace("        print_line(f", "        rospy.wait_for_service('print_line')\n        print_line(f")
 # %% 15.8 wrong: repeats a refused line | hint: The till called print_line again after the printer had refused
 replace('        print_line(f"{request.item} {request.cents}")\n', """        try:

@@ -90,7 +90,7 @@ def call_of_any_type(context: CheckContext) -> None:
         "is_message", Its("call_any"), name, {"data": True}, worded="call_any()", hints=ERRORS
     )
     context.expect(
-        "the response is returned",
+        "call_any() returns the response",
         expected="a response",
         actual="a response" if whole.returned() else "an object of a different type with the same values",
         hints="The function returned a dict or a similar object. Return the object that the proxy returns.",
@@ -167,4 +167,6 @@ def _calls(context: CheckContext, example: ExampleCall) -> None:
             ),
         ],
     )
-    context.expect("the response is returned", expected=example.answer, actual=returned, hints=NOT_RETURNED)
+    context.expect(
+        "call_any() returns the response", expected=example.answer, actual=returned, hints=NOT_RETURNED
+    )

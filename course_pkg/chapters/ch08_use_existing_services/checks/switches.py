@@ -63,7 +63,7 @@ CASES = (
         ],
     ),
     Case(
-        "a switch that responds False and does not move",
+        "a switch that responds with success=False and does not move",
         there=False,
         obeys=False,
         success=False,
@@ -77,7 +77,7 @@ CASES = (
         ],
     ),
     Case(
-        "a switch that responds True but does not move",
+        "a switch that responds with success=True but does not move",
         there=False,
         obeys=False,
         success=True,

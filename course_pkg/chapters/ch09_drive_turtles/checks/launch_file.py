@@ -149,7 +149,10 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
     context.require(
         "roslaunch starts spawn_turtle_plus only if addturtle is true",
         holds=(f"/{SECOND}" in nodes) == wanted,
-        expected=f"{'with' if wanted else 'without'} /{SECOND} for {argument or 'no argument'}",
+        expected=(
+            f"a list {'with' if wanted else 'without'} /{SECOND}, if the command has "
+            f"{argument or 'no argument'}"
+        ),
         actual=", ".join(sorted(nodes)),
         hints=[
             (

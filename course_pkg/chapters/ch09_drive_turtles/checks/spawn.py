@@ -188,7 +188,10 @@ def _why_no_call(done: Finished) -> str:
             "program waits."
         )
     if done.status == 0:
-        return "The program ended without a request to /spawn. Call the service after the wait."
+        return (
+            "The program ended without a request to /spawn. Call the service after your program has "
+            "waited for it."
+        )
     return why_it_ended(done)
 
 

@@ -181,8 +181,8 @@ def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count:
     if not shelf.together:
         context.fail(
             f"{CALLERS} clients at the same time: the number of sales is equal to the number of things",
-            expected="several handlers at the same time",
-            actual="one handler after the other",
+            expected="several handlers run at the same time",
+            actual="the handlers run one after the other",
             hint=ONE_BY_ONE,
         )
     context.expect(

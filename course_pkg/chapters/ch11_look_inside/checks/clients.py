@@ -74,8 +74,8 @@ def persistent_client(context: CheckContext) -> None:
     server = context.serve(name, GEOMETRY, lambda _: _next_act(acts))
     client = Client(context, "Keeper", name)
     for volume in volumes[:3]:
-        _measures(context, client, "the response is returned", volume)
-    _sends_the_sides(context, client, server, "the response is returned")
+        _measures(context, client, "measure() returns the response", volume)
+    _sends_the_sides(context, client, server, "measure() returns the response")
     _one_connection(context, server, "the calls share one connection")
     acts.insert(0, Refuse("not this box"))
     _reports_a_refusal(context, client, server, *REFUSED)
@@ -211,7 +211,7 @@ def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer)
         "the client replaces a broken connection",
         holds=asked == 2 and bool(result.error) and not result.error.startswith("TimesUp"),
         expected="2 requests, and the error of the second connection",
-        actual=f"{asked}, and {result.error or 'a value'}",
+        actual=f"{asked} requests, and {result.error or 'a value'}",
         hints=[
             ((lambda _: asked > 2), AGAIN),
             (

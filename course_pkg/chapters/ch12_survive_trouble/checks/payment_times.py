@@ -93,7 +93,7 @@ def ends_without_a_till(context: CheckContext) -> None:
         context.require(
             "pay() makes attempts until the deadline",
             holds=result.took > AT_WORK,
-            expected=f"attempts during {AT_END:g} s",
+            expected=f"attempts for {AT_END:g} s",
             actual=f"pay() ended after {result.took:.1f} s",
             hints=STOPPED,
         )

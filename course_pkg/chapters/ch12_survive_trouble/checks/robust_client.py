@@ -325,7 +325,7 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
     context.require(
         "pay() makes attempts until the deadline",
         holds=result.took > SHORT / 3,
-        expected=f"attempts during {SHORT:g} s",
+        expected=f"attempts for {SHORT:g} s",
         actual=f"pay() ended after {result.took:.1f} s",
     )
     till.plan.clear()

@@ -119,8 +119,8 @@ def own_queue(context: CheckContext) -> None:
     context.require(
         "the program creates a second callback queue",
         holds=not _leaves_battery_in_the_global_queue(_code(context, QUEUE)),
-        expected="a second queue for /battery",
-        actual="/battery in the global queue",
+        expected="the service /battery uses the second queue",
+        actual="the service /battery uses the global queue",
         hints=(
             "The program creates a second callback queue, but /battery does not use it. Create the service "
             "/battery with the NodeHandle that has the second queue."

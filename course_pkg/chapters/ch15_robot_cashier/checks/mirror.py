@@ -123,7 +123,7 @@ def _why_invalid(state: JointState) -> tuple[str, str]:
     """Return two texts: why the joint state `state` is invalid, and the hint for its mirror image."""
     if state.misses_positions:
         return (
-            f"an image of {len(state.position)} positions for {len(state.name)} joints",
+            f"a mirror image with {len(state.position)} positions for {len(state.name)} joints",
             (
                 "The number of names is different from the number of positions. Compare the "
                 "lengths of these two lists, and ignore the message if the lengths are different."
@@ -131,14 +131,14 @@ def _why_invalid(state: JointState) -> tuple[str, str]:
         )
     if state.misses_velocities:
         return (
-            f"an image of {len(state.velocity)} velocities for {len(state.name)} joints",
+            f"a mirror image with {len(state.velocity)} velocities for {len(state.name)} joints",
             (
                 "The number of velocities has to be 0 or equal to the number of names. Ignore a "
                 "message with a different number of velocities."
             ),
         )
     return (
-        "an image of a number that is not finite",
+        "a mirror image with a number that is not finite",
         ("A position or velocity was nan or inf, which is not valid. Check each number with math.isfinite."),
     )
 

@@ -199,8 +199,8 @@ COUNTED = (
     "after print_line has returned."
 )
 NO_PRINTER = (
-    "The service print_line does not exist, and the till did not refuse the call within 5 s. Do "
-    "not wait for this service without a time limit."
+    "The service print_line does not exist, and the till did not refuse the call within 5 s. If the "
+    "till waits for this service, use a time limit."
 )
 RESTARTED = (
     "The printer was started again, but the till still refuses an item. Create the proxy without "
@@ -225,7 +225,7 @@ ORDER = (
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, "# Your program of exercise 15.7, extended.\n..."),
+    start=start_of(NAME, ("# Copy your program of exercise 15.7 into this cell, and extend the copy.\n...")),
     goals={PRINTED: 2, "Print one line at a time. Refuse an item if there is no printer.": 1},
 )
 def the_printed_till(context: CheckContext) -> None:
@@ -341,7 +341,7 @@ def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int])
     sums = list(itertools.accumulate((int(cents) for _, _, cents in printed), initial=sum(prices.values())))
     wanted = {name: total for (name, _, _), total in zip(printed, sums[1:], strict=True)}
     context.expect(
-        "each total is the sum of the printed lines",
+        "each total is the sum of the prices on the printed lines",
         expected=[wanted.get(item) for item, _ in items],
         actual=[reply.response.total for reply in replies],
         hints=ORDER,
@@ -404,7 +404,7 @@ LEFT = (
     goal="Extend till.py: till/reset removes all items, and returns a message with the sum that was paid.",
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, "# Your program of exercise 15.8, extended.\n..."),
+    start=start_of(NAME, ("# Copy your program of exercise 15.8 into this cell, and extend the copy.\n...")),
     goals={
         EMPTIED: 3,
         (

@@ -82,8 +82,8 @@ RESET_FAILED = (
     "rospy.ServiceException at the call of till/reset, and continue the loop."
 )
 NO_TILL = (
-    "The service till/reset does not exist, and the node stopped calling detect_customer. Do not "
-    "wait for till/reset without a time limit, and catch rospy.ServiceException."
+    "The service till/reset does not exist, and the node stopped calling detect_customer. If the node "
+    "waits for till/reset, use a time limit, and catch rospy.ServiceException."
 )
 NO_DEFAULT = (
     "If the parameter ~wait is not set, the field `patience` has to be 2 s. Use "
@@ -148,7 +148,7 @@ GREETED = "Greet each customer once, and publish mirror images of the arm at the
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, "# Your program of exercise 15.5, extended.\n..."),
+    start=start_of(NAME, ("# Copy your program of exercise 15.5 into this cell, and extend the copy.\n...")),
     goals={
         GREETED: 3,
         "Call detect_customer in a loop. If the parameter ~wait is not set, set `patience` to 2 s.": 1,

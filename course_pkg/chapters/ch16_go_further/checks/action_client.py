@@ -165,8 +165,8 @@ def _in_time(context: CheckContext) -> None:
         context.require(
             "if the robot finishes in time, fetch_within() returns the result",
             holds=result.took < PROMPT,
-            expected="the result as soon as it arrives",
-            actual=f"the result after {result.took:.1f} s",
+            expected="a function that returns the result as soon as it arrives",
+            actual=f"a function that returned the result after {result.took:.1f} s",
             hints=(
                 "The function still waited after the result had arrived. Remove sleep(), because "
                 "wait_for_result returns as soon as the goal has ended."
