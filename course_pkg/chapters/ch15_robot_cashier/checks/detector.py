@@ -264,7 +264,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, ("# Copy your program of exercise 15.2 into this cell, and extend the copy.\n...")),
+    start=start_of(NAME, "# Copy your program of exercise 15.2 into this cell, and extend the copy.\n..."),
     goals={
         SILENT_CAMERA: 3,
         (

@@ -225,7 +225,7 @@ ORDER = (
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, ("# Copy your program of exercise 15.7 into this cell, and extend the copy.\n...")),
+    start=start_of(NAME, "# Copy your program of exercise 15.7 into this cell, and extend the copy.\n..."),
     goals={PRINTED: 2, "Print one line at a time. Refuse an item if there is no printer.": 1},
 )
 def the_printed_till(context: CheckContext) -> None:
@@ -404,7 +404,7 @@ LEFT = (
     goal="Extend till.py: till/reset removes all items, and returns a message with the sum that was paid.",
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, ("# Copy your program of exercise 15.8 into this cell, and extend the copy.\n...")),
+    start=start_of(NAME, "# Copy your program of exercise 15.8 into this cell, and extend the copy.\n..."),
     goals={
         EMPTIED: 3,
         (

@@ -148,7 +148,7 @@ GREETED = "Greet each customer once, and publish mirror images of the arm at the
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, ("# Copy your program of exercise 15.5 into this cell, and extend the copy.\n...")),
+    start=start_of(NAME, "# Copy your program of exercise 15.5 into this cell, and extend the copy.\n..."),
     goals={
         GREETED: 3,
         "Call detect_customer in a loop. If the parameter ~wait is not set, set `patience` to 2 s.": 1,

@@ -125,8 +125,8 @@ AFTERWARDS = (
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=(
-        f"%%writefile {FILE}\n<!-- Copy your file of exercise 15.10 into this cell, and change the "
-        "copy. -->\n..."
+        f"%%writefile {FILE}\n"
+        "<!-- Copy your file of exercise 15.10 into this cell, and change the copy. -->\n..."
     ),
     # The check starts the course's programs in place of missing programs of the student.
     runs=[*NODES, "simulator", "watch", "pictures"],
