@@ -344,13 +344,13 @@ replace('ros::ServiceServer first = node.', 'ros::CallbackQueue queue;\n  ros::N
 replace('ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();', 'ros::AsyncSpinner spinner(1, &queue);\n  spinner.start();\n  ros::spin();')
 # %% 14.7 wrong: three threads | hint: One call works, but three calls at the same time do not end
 replace('spinner(4)', 'spinner(3)')
-# %% 14.7 wrong: no call | hint: The handlers were changed
+# %% 14.7 wrong: no call | hint: Your two handlers are different
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
-# %% 14.7 wrong: another name for the service of the client | hint: The handlers were changed
+# %% 14.7 wrong: another name for the service of the client | hint: Your two handlers are different
 replace('("battery", handleBattery)', '("battery", handleBattery);\n  ros::ServiceServer same = node.advertiseService("same", handleBattery)')
 replace('<std_srvs::Trigger>("battery")', '<std_srvs::Trigger>("same")')
-# %% 14.7 wrong: the call never runs | hint: The handlers were changed
+# %% 14.7 wrong: the call never runs | hint: Your two handlers are different
 replace('if (!battery', 'if (level < 0 && !battery')
 replace('inner.response.message', 'std::to_string(level)')
 # %% 14.7 wrong: no parameter | hint: The level in the message is wrong
@@ -384,7 +384,7 @@ replace('node.advertiseService("report"', 'other.advertiseService("report"')
 # %% 14.8 wrong: both in a queue with four threads | hint: One call works, but eight calls at the same time do not end
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 replace('spinner(1, &queue)', 'spinner(4, &queue)')
-# %% 14.8 wrong: no call | hint: The handlers were changed
+# %% 14.8 wrong: no call | hint: Your two handlers are different
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
 
