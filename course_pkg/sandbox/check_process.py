@@ -31,7 +31,7 @@ def check_part(
     *,
     isolation: Isolation,
 ) -> NoReturn:
-    """Run the check of `job` and write its record to the file `out`, as one JSON object."""
+    """Run the check of the job, and write its record to the file `out`, as one JSON object."""
     if isolation.namespaces:
         namespaces.enter(network, namespaces.NETWORK)
     if isolation.users:

@@ -57,9 +57,9 @@ FOUND = "Return the names of all services of the given type. Do not call the ser
     ],
 )
 def find_by_type(context: CheckContext) -> None:
-    """Serve services of the searched type, of another type, and of types with similar names.
+    """Offer services of the searched type, of another type, and of types with similar names.
 
-    Later, serve another service, and register a service whose server is dead.
+    Later, offer another service, and register a service whose server is dead.
     """
     kind, other = context.random.shuffled(KINDS)[:2]
     short = kind.partition("/")[2]
