@@ -200,7 +200,7 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed({name: value for name, value in fields.items() if value}),
-            "A field with an empty value is missing. Write this field, too: its text is the name and the "
+            "A field with an empty value is missing. Write this field, too: write its name and the "
             "equals sign.",
         ),
         (

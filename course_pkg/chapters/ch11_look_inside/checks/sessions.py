@@ -141,8 +141,8 @@ def _wrong_total(amount: int, calls: int, everything: int) -> Hints:
         (
             ANYTHING,
             (
-                "The field `total` is wrong. The total of a session starts at 0, and each call adds its "
-                "amount."
+                "The field `total` is wrong. The total of a session starts at 0, and each call adds "
+                "the amount in its request."
             ),
         ),
     ]

@@ -234,7 +234,7 @@ def _refuses_impossible_patience(context: CheckContext, detect: Service, vision:
 SILENT = 'The error message does not contain the word "camera". Write this word into the message.'
 OLD = (
     "The handler used a message that is older than 1 s. Store the time at which each message arrives, "
-    "and compare it with the current time."
+    "and compare this time with the current time."
 )
 NOBODY_KNOWS = (
     "Without messages from the camera, the node does not know whether a customer is there. After "
