@@ -125,7 +125,7 @@ def _hints(book: Book) -> str:
         }
     )
     if not counts:
-        return paragraph("None: all assertions passed.")
+        return paragraph("There are no hints: all assertions passed.")
     ranked = sorted(counts.items(), key=lambda item: (-item[1], item[0]))[:HINTS]
     rows = [(text(check), text(hint), str(count)) for (check, hint), count in ranked]
     return table("Each student is counted once for each hint.", ["Part", "Hint", "Students"], rows, 1)
@@ -142,7 +142,7 @@ def _looks(book: Book) -> str:
     items = "".join(
         f"<li>{_link(student)}{_listed([*grave[student], *_known(book, student)])}</li>" for student in ranked
     )
-    looks = f'<ul class="looks">{items}</ul>' if items else paragraph("None: no student needs attention.")
+    looks = f'<ul class="looks">{items}</ul>' if items else paragraph("No student needs attention.")
     others = [student for student in book.students if student not in grave and _known(book, student)]
     if not others:
         return looks
