@@ -17,7 +17,7 @@ STATUSES = """exit status:
   0    every submission was graded
   1    nothing was graded, or the run could not continue; the message says why
   2    an option is wrong
-  3    some submissions need attention: a submission could not be graded, a part of it was not
+  3    some submissions need a look: a submission could not be graded, a part of it was not
        examined, a check could not finish, the submission time is not known, or the submission
        has no points
   130  you stopped the run; type the same command again to continue

@@ -56,7 +56,7 @@ def undisturbed(submissions: Path, tmp_path_factory: pytest.TempPathFactory) -> 
     out = tmp_path_factory.mktemp("grades")
     done = grade(submissions, out)
     assert done.returncode == NEED_A_LOOK, done.stderr
-    assert done.stdout.splitlines()[-1] == "3 graded, 1 needs attention"
+    assert done.stdout.splitlines()[-1] == "3 graded, 1 needs a look"
     assert not {"s01", "s02", "s03", "s04"} & set(done.stderr.replace(",", " ").split())
     return out
 

@@ -18,9 +18,9 @@ def status_of(graded: Sequence[Grade]) -> int:
 
 
 def last_line(graded: Sequence[Grade]) -> str:
-    """Return the last line that a run prints, for example "45 graded, 22 need attention"."""
+    """Return the last line that a run prints, for example "45 graded, 22 need a look"."""
     looks = sum(map(needs_look, graded))
-    return f"{len(graded) - looks} graded, {looks} {'needs' if looks == 1 else 'need'} attention"
+    return f"{len(graded) - looks} graded, {looks} {'needs' if looks == 1 else 'need'} a look"
 
 
 def about_empty(graded: Sequence[Grade]) -> list[str]:

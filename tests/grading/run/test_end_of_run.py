@@ -78,11 +78,11 @@ def test_a_name_cannot_control_the_terminal(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("grades", "line", "status"),
     [
-        ([FULL, LESS], "2 graded, 0 need attention", GRADED),
-        ([FULL, refused(), refused("s32")], "1 graded, 2 need attention", NEED_A_LOOK),
-        ([_grade("s01", Verdict.PASSED, Verdict.UNDECIDED)], "0 graded, 1 needs attention", NEED_A_LOOK),
-        ([_grade("s01", Verdict.FAILED)], "0 graded, 1 needs attention", NEED_A_LOOK),
-        ([replace(FULL, notes=(NO_TIME,))], "0 graded, 1 needs attention", NEED_A_LOOK),
+        ([FULL, LESS], "2 graded, 0 need a look", GRADED),
+        ([FULL, refused(), refused("s32")], "1 graded, 2 need a look", NEED_A_LOOK),
+        ([_grade("s01", Verdict.PASSED, Verdict.UNDECIDED)], "0 graded, 1 needs a look", NEED_A_LOOK),
+        ([_grade("s01", Verdict.FAILED)], "0 graded, 1 needs a look", NEED_A_LOOK),
+        ([replace(FULL, notes=(NO_TIME,))], "0 graded, 1 needs a look", NEED_A_LOOK),
     ],
 )
 def test_the_last_line_and_the_status(grades: list[Grade], line: str, status: int) -> None:

@@ -40,7 +40,7 @@ def test_a_class_over_several_runs(tmp_path: Path) -> None:
 
     first = _grade(tmp_path, "--chapters", "0")
     assert first.returncode == NEED_A_LOOK, first.stderr
-    assert first.stdout.splitlines()[-1] == "3 graded, 1 needs attention"
+    assert first.stdout.splitlines()[-1] == "3 graded, 1 needs a look"
     assert "changed" not in first.stdout
     before = _points(tmp_path)
     assert list(before) == ["s01", "s02", "s03", "s04"]
@@ -51,7 +51,7 @@ def test_a_class_over_several_runs(tmp_path: Path) -> None:
     assert one.returncode == GRADED, one.stderr
     assert one.stdout.splitlines()[0] == "Points that have changed since the last run:"
     assert one.stdout.splitlines()[1].startswith("  s02, 00.1: 0 before, ")
-    assert one.stdout.splitlines()[-1] == "1 graded, 0 need attention"
+    assert one.stdout.splitlines()[-1] == "1 graded, 0 need a look"
     assert _points(tmp_path) == {**before, "s02": before["s01"]}
 
     shutil.rmtree(tmp_path / "s03")

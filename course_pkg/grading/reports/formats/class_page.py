@@ -1,4 +1,4 @@
-"""class.html: the results of each part, the most frequent hints, and the students who need attention."""
+"""class.html: the results of each part, the most frequent hints, and the students who need a look."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _body(book: Book) -> Iterator[str]:
         return
     yield "<h2>Everybody</h2>"
     yield _everybody(book)
-    yield "<h2>Students who need attention</h2>"
+    yield "<h2>Students who need a look</h2>"
     yield _looks(book)
     yield _absent(book)
     yield _reviewed(book)
@@ -132,7 +132,7 @@ def _hints(book: Book) -> str:
 
 
 def _looks(book: Book) -> str:
-    """Return the students who need attention, with the most serious cases first.
+    """Return the students who need a look, with the most serious cases first.
 
     Notes about the remaining students follow, in a list that the reader can unfold.
     """
@@ -142,7 +142,7 @@ def _looks(book: Book) -> str:
     items = "".join(
         f"<li>{_link(student)}{_listed([*grave[student], *_known(book, student)])}</li>" for student in ranked
     )
-    looks = f'<ul class="looks">{items}</ul>' if items else paragraph("No student needs attention.")
+    looks = f'<ul class="looks">{items}</ul>' if items else paragraph("No student needs a look.")
     others = [student for student in book.students if student not in grave and _known(book, student)]
     if not others:
         return looks
