@@ -19,7 +19,7 @@ from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
 
 START_TIMEOUT = 90.0  # The worker has to start within this time in s; without load, the start takes 2 s.
-# Each part has its own time limit. If the result is still missing this many s after the limit, the worker
+# Each part has its own time limit. If the result is still missing this time in s after the limit, the worker
 # itself has failed.
 SLACK = 45.0
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # A waiting thread checks at least once in this time (s) whether the camera is silent.
 POLL = 0.25
-# If an Eye receives no valid frame for this many s, the state of the counter is unknown.
+# If an Eye receives no valid frame for this time in s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0
 
 Time: TypeAlias = "float | genpy.Time"  # a time on the clock that a Watch uses

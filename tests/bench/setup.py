@@ -140,7 +140,7 @@ def tell_surroundings(system: Path) -> None:
 # rospy.
 
 ROUNDS = 21
-IMPORTS_BAR = 60.0  # The import of course_pkg may take at most this many ms more than the import of rospy.
+IMPORTS_BAR = 60.0  # The import of course_pkg may take up to this time in ms more than the import of rospy.
 PEER = "import rospy"
 STATEMENTS = {
     "course_pkg": "import rospy, course_pkg",

@@ -10,7 +10,7 @@ from course_pkg.errors import GradingError
 from course_pkg.grading.roster.people import Person
 
 COLUMN = "extension_days"
-FOLDED = "extension days"  # The roster stores the column `extension_days` under this name.
+FOLDED = "extension days"  # The reader of the roster changes the name of the column COLUMN to this name.
 
 
 @dataclass(frozen=True)

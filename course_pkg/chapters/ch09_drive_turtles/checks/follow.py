@@ -26,14 +26,14 @@ PROGRAM = script("spawn_turtle_plus")
 ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # The speed is in m/s.
-LATER = 2.0  # The service /toggle_forward starts after this many s.
+LATER = 2.0  # The service /toggle_forward starts after this time in s.
 TOO_LATE = (
     "The service /toggle_forward starts only after your program has called /spawn. Wait for each "
     "service immediately before its call."
 )
 WHERE = "Publish only on the topic /NAME/cmd_vel. NAME is the name of the turtle in the response of /spawn."
 ENDED = "The node ended after the calls, so it receives no messages. Call rospy.spin() at the end."
-ENDING = 0.6  # A program without spin() ends within this many s.
+ENDING = 0.6  # A program without spin() ends within this time in s.
 COUNT = 20  # COUNT is the number of velocities that the check publishes.
 STOPS = (
     "if a service is missing for 5 s or refuses a call, the program makes no further call and ends "

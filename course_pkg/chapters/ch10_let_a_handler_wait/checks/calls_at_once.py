@@ -16,13 +16,13 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
 TRIGGER = "std_srvs/Trigger"
-TOGETHER = 1.0  # The server waits at most this many s until the other calls have arrived.
+TOGETHER = 1.0  # The server waits up to this time in s until the other calls have arrived.
 LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
-# The student's function must return within this many s after the last response. If a function sleeps for a
+# The student's function must return within this time in s after the last response. If a function sleeps for a
 # fixed time instead of joining its threads, it can take longer.
 PROMPT = 0.3
-# In the first run, each call takes this many s. If the student's function returns too late, the check adds a
-# run with longer calls.
+# In the first run, each call takes this time in s. If the student's function returns too late, the check adds
+# a run with longer calls.
 LONGER = 1.0
 
 # This code reports each call of a persistent proxy to the check. The thread that makes the call also sends

@@ -14,10 +14,11 @@ from course_pkg.checking.result import Result
 ADD = "course_pkg/AddTwoInts"
 LIMIT = 0.8  # LIMIT is the time in s for which the student's function may wait.
 LONG = 4.0  # This time limit in s is longer than the duration of every call.
-VERY_LONG = 25.0  # A function that polls only ten times within this many s returns the response too late.
-HELD = 10.0  # The server delays a response by at most this many s.
+# With this time limit in s, a function that polls only ten times within its time limit returns too late.
+VERY_LONG = 25.0
+HELD = 10.0  # The server delays a response by at most this time in s.
 WORK = 0.3  # WORK is the duration of a slow handler in s.
-SLACK = 1.2  # On a busy machine, a call may take this many s longer.
+SLACK = 1.2  # SLACK is the additional time in s that a call may take on a busy machine.
 KERNEL_CODE = (
     UNCHANGED_CLOCK
     + """

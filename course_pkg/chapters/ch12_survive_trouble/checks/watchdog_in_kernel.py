@@ -14,7 +14,7 @@ from course_pkg.checking.plain_values import Value
 from course_pkg.ros.protocol.xmlrpc import XmlRpcClient
 
 TIMEOUT = 5.0  # TIMEOUT is the time limit in s for a call to the master.
-PAUSE = 5.0  # A registration waits at most this many s.
+PAUSE = 5.0  # A registration waits up to this time in s.
 
 # The code defines a service in the kernel, and starts the student's watchdog. The watchdog's calls to the
 # master go through the check runner.

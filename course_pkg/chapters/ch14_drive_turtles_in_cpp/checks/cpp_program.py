@@ -17,7 +17,7 @@ NAME = "my_turtles_cpp"
 # For the compilation, -t limits the CPU time in s, and -f limits the size of a file in KiB. One source file
 # takes 4 s.
 LIMITS = "ulimit -t 40 -f 100000"
-COMPILING = 90.0  # The compilation may take this many s; it takes 4 s on an idle machine.
+COMPILING = 90.0  # The compilation may take up to this time in s; it takes 4 s on an idle machine.
 
 
 def cpp(name: str) -> TurtleProgram:

@@ -18,10 +18,10 @@ FRAMES, SEEN = "frames", "customer_seen"
 INTERFACE = Interface(publishes=[SEEN], subscribes=[FRAMES])
 BOOL = "std_msgs/Bool"
 DARK = 96
-# On a busy machine, the message after a frame may take this many s; it usually takes 5 ms.
+# On a busy machine, the message after a frame may take up to this time in s; it usually takes 5 ms.
 ANSWER = 8.0
-AGAIN = 0.03  # A wrong second message would arrive within this many s.
-SILENT = 0.25  # A wrong message after a malformed frame would arrive within this many s.
+AGAIN = 0.03  # A wrong second message would arrive within this time in s.
+SILENT = 0.25  # A wrong message after a malformed frame would arrive within this time in s.
 
 AVERAGE = (
     "A fifth of the points is dark, so this frame shows a customer. Count the dark points, and do "

@@ -12,7 +12,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
-SETTLING = 1.0  # A node that reads parameters from a cache gets a new value within this many s.
+SETTLING = 1.0  # A node that reads parameters from a cache gets a new value within this time in s.
 NAME = (
     "The name of the parameter is wrong. Put the name of the robot into the parameter's name: "
     "f'/{robot}/speed'."
