@@ -52,10 +52,10 @@ class Found:
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the name of the package if `names` contains this name, or else the name of the folder.
+        """Return the name of the package or of its folder, whichever `names` contains.
 
-        `names` contains the names of the packages that parts need. If it contains neither the name of the
-        package nor the name of the folder, return "".
+        `names` contains the names of the packages that parts need. If it contains both names, return the name of
+        the package. If it contains none of the two names, return "".
         """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 

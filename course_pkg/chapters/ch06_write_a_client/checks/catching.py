@@ -197,7 +197,8 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
     """Return the failures of a call that the student's function must handle.
 
-    Each tuple contains the name of the failure, the name of the service, and the server or None.
+    Each tuple contains the name of the failure, the name of the service, and the server. If no server runs,
+    the third item is None.
     """
     refusing, dying, killed, nowhere = (f"/{context.random.word()}" for _ in range(4))
     refuses = context.serve(refusing, GEOMETRY, lambda _: Refuse("not today"))

@@ -156,13 +156,13 @@ class CheckedPair:
     @property
     @remote
     def first(self) -> CheckedShelf:
-        """The shelf with the lower number."""
+        """The first shelf; its number is lower than the number of the second shelf."""
         return self._shelves[0]
 
     @property
     @remote
     def second(self) -> CheckedShelf:
-        """The shelf with the higher number."""
+        """The second shelf; its number is higher than the number of the first shelf."""
         return self._shelves[1]
 
     @remote

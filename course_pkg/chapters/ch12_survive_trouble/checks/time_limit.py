@@ -14,7 +14,7 @@ from course_pkg.checking.result import Result
 ADD = "course_pkg/AddTwoInts"
 LIMIT = 0.8  # LIMIT is the time in s for which the student's function may wait.
 LONG = 4.0  # This time limit in s is longer than the duration of every call.
-# With this time limit in s, a function that polls only ten times within its time limit returns too late.
+# With this time limit in s, a function that polls only ten times during a call returns the response too late.
 VERY_LONG = 25.0
 HELD = 10.0  # The server delays a response by at most this time in s.
 WORK = 0.3  # WORK is the duration of a slow handler in s.
@@ -146,7 +146,8 @@ def _returns_no_late_response(context: CheckContext, name: str, adder: Adder) ->
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
     """Call a server that responds, refuses or does not respond, in a random order.
 
-    The time limit is always the same, so a function that chooses its result by the time limit fails.
+    The time limit is always the same, so the check detects a function that derives its result
+    from the time limit.
     """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses

@@ -14,8 +14,8 @@ from course_pkg.waiting import at_this_load, wait_until
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
 THINKING, COUNTING = 0.4, 0.05  # These times in s are the same as in the file that the exercise provides.
-# The time between two responses may be at most this time in s. If a call has to wait for a thread, this time
-# is longer.
+# APART is the maximum time in s between two responses. If a call has to wait for a thread, this time is
+# longer.
 APART = 0.15
 # LATE is the time in s that the fastest call may take in addition to the time of think() and count().
 LATE = 0.2

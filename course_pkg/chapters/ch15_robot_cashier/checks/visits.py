@@ -254,7 +254,7 @@ class Till:
 
 
 def _called(detector: Detector, times: int) -> bool:
-    """Wait for call number `times` of the detector; return whether this call came in time."""
+    """Return whether the detector receives `times` calls in total, the last of them within NEXT_CALL s."""
     return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
 
 
