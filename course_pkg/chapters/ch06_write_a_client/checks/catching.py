@@ -156,7 +156,7 @@ def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDD
 
 
 def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -> None:
-    """Assert that the student's function returns None for the service `name`, whose call fails.
+    """Assert that the student's function returns None if the call of the service `name` fails.
 
     The student's function may wait up to 10 s for the service.
     """

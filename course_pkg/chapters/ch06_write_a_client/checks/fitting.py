@@ -227,7 +227,7 @@ class Started:
         self.run = folder.start("python", *argv, worded=" ".join(["python3", *argv]))
 
     def watch(self) -> bool:
-        """If the program's node has been on the graph for LATE s, serve the late service.
+        """If the program's node has been on the graph for `LATE` s, serve the late service.
 
         If there is no service, store how long the program waits, and return whether the program has ended.
         """

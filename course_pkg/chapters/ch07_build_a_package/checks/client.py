@@ -242,7 +242,10 @@ def _run(package: BuiltPackage, arguments: list[str]) -> Finished:
 
 
 def _printed(done: Finished, name: str) -> float | None:
-    """Return the number in an output line such as "area: 6.24", or None; `name` is the line's first word."""
+    """Return the number in an output line such as "area: 6.24", or None without this line.
+
+    `name` is the first word of the line.
+    """
     found = re.search(rf"(?m)^\s*{name}:\s*(-?\d+\.\d\d)\s*$", done.out)
     return float(found[1]) if found else None
 

@@ -22,11 +22,11 @@ LATER = 0.6  # A customer comes after this time in s.
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
 CHANGE = 2.2  # After this time in s, the customers at the counter change again.
 # If a handler polls and does not wait for notifications, it must call watch.next() at least this many times
-# in LONG s.
+# in `LONG` s.
 SELDOM = 8
-LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
+LOOKS = 3000  # In `LONG` s, a loop without a pause calls watch.next() more than this many times.
 
-USED = 0.3  # In LONG s, the kernel may use this time in s of processor time.
+USED = 0.3  # USED is the CPU time in s that the kernel may use within `LONG` s.
 # In the fastest of ATTEMPTS calls, the response has to come within this time in s after the customer.
 PROMPT = 0.45
 ATTEMPTS = 3

@@ -48,7 +48,7 @@ checked_call = CheckedCall()
 """
 )
 ABANDONED = (1, 2)  # These numbers are in the requests of the calls that end with TimeoutError.
-BUSY = 0.2  # A loop without a sleep uses more than this CPU time (s) within LONG s.
+BUSY = 0.2  # A loop without a sleep uses more than this CPU time (s) within `LONG` s.
 ERRORS = [
     (
         matches("TimesUp"),
@@ -82,7 +82,7 @@ class Held:
         self._released.set()
 
     def wait(self) -> None:
-        """Wait until release() is called, but for at most HELD s."""
+        """Wait until release() is called, but for at most `HELD` s."""
         self._released.wait(HELD)
 
 

@@ -329,7 +329,7 @@ def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster, returns:
 
     `returns` unregisters the service, and returns whether the service is registered again.
 
-    After stop(), a right watchdog does not register the service again, and makes at most LAST polls.
+    After stop(), a right watchdog does not register the service again, and makes at most `LAST` polls.
     """
     watched.hold()
     if not watched.inside.wait(SOON):

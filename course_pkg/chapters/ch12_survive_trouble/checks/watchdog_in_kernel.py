@@ -58,7 +58,7 @@ class CheckedMaster:
     After hold(), the master reports that it knows no services. The watchdog therefore registers its service
     again. This registration waits until stop() has returned. But stop() may wait for the watchdog's thread.
     Therefore, the registration also continues when `slow` s have passed since the call of stop(). Without a
-    call of stop(), the registration continues after PAUSE s.
+    call of stop(), the registration continues after `PAUSE` s.
     """
 
     def __init__(self, uri: str, slow: float) -> None:

@@ -265,7 +265,7 @@ class Shop:
     def serves_two_customers(self, mirrored: Subscription, arm: Publisher) -> None:
         """Let a customer come and leave.
 
-        Between these two events, make MANY calls of till/set at the same time, and let the printer fail.
+        Between these two events, make `MANY` calls of till/set at the same time, and let the printer fail.
         """
         context = self.context
         total = self.service("till/total", "course_pkg/TillTotal", COUNTED)
