@@ -39,7 +39,7 @@ def installed_proxy(places: Places) -> Path:
 
 
 def self_signed(folder: Path, address: str) -> tuple[Path, Path]:
-    """Return a certificate for the address, and its key; openssl creates them if they are missing.
+    """Return a certificate for the address, and its key; if these files are missing, openssl creates them.
 
     Both files are in the folder `folder`.
 

@@ -148,7 +148,7 @@ def _send_at_once(server: Server) -> None:
 
 
 def undelayed(stock: type[Connection]) -> type[Connection]:
-    """Return a subclass of the class `stock` that sets TCP_NODELAY before it connects."""
+    """Return a subclass of the class `stock`; each object of it sets TCP_NODELAY before it connects."""
 
     async def connect(self: Connection) -> None:
         try:

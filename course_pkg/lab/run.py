@@ -70,7 +70,10 @@ def _signals_held_back() -> Iterator[None]:
 
 
 def _wait(process: SupervisedProcess) -> int:
-    """Wait for the end of the process; forward each signal that the terminal has not already sent to it."""
+    """Wait for the end of the process, and forward signals to the process.
+
+    The function does not forward a signal that the terminal has already sent to the process.
+    """
     while (status := process.returncode) is None:
         received = signal.sigwaitinfo(AWAITED)
         # A signal that comes from the terminal has pid 0. The terminal sends the same signal to the command,

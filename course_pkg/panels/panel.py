@@ -64,7 +64,7 @@ class Panel(anywidget.AnyWidget):
         return next((each for each in messages if each and isinstance(each, str)), "")
 
     def shown(self) -> None:
-        """Start the work that the panel does only while a page shows it.
+        """Start the work that the panel does only while a page shows the panel.
 
         The base class calls this method for each new view.
         """

@@ -30,12 +30,12 @@ def split_type_name(name: str) -> tuple[str, str]:
 
 
 def built_message(name: str) -> MessageClass | None:
-    """Return the generated class of a message type, or None if it is not built or cannot be imported."""
+    """Return the generated class of a message type, or None if the class is missing or cannot be imported."""
     return getattr(_built_module(name, "msg"), name.rpartition("/")[2], None)
 
 
 def built_service(name: str) -> ServiceClass | None:
-    """Return the generated class of a service type, or None if it is not built or cannot be imported."""
+    """Return the generated class of a service type, or None if the class is missing or cannot be imported."""
     return getattr(_built_module(name, "srv"), name.rpartition("/")[2], None)
 
 
@@ -60,7 +60,7 @@ def _import(name: str) -> ModuleType | None:
 
 
 def definition_file(name: str, kind: DefinitionKind, finder: rospkg.RosPack | None = None) -> Path | None:
-    """Return the .srv or .msg file of a type, or None if it is not on ROS_PACKAGE_PATH."""
+    """Return the .srv or .msg file of a type, or None if no package on ROS_PACKAGE_PATH contains it."""
     package, short = split_type_name(name)
     for _, folder in _each_folder(kind, [package], finder):
         # Some file systems ignore the case of letters, so compare the name with each file name in the folder.

@@ -30,7 +30,7 @@ def tokens_in(folder: Path) -> dict[str, str]:
 
 
 def result(name: str, check: str = "05.1", verdict: str = "not yet", **more: object) -> dict[str, object]:
-    """Return a result as a student's server sends it."""
+    """Return a result in the format in which a student's server sends it."""
     return {"id": name, "check": check, "verdict": verdict, "time": time.time(), "hint": "", **more}
 
 

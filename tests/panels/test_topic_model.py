@@ -31,7 +31,7 @@ class FakeProcess:
 
 
 def message(number: int, data: str, kind: MessageType = FLOAT, **other: Plain) -> MessageReport:
-    """Return a message as the topic process reports it."""
+    """Return a message in the format in which the topic process reports it."""
     about = {"number": number, "ago": 0.1, "peer": "/talker", "size": 8, "type": kind.name, "md5": kind.md5}
     return {**about, "texts": {"data": data}, **other}
 

@@ -67,7 +67,7 @@ def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) 
 
 
 def test_a_panel_is_shown_for_a_while() -> None:
-    """If the recording plan contains `watch`, the recording shows the panel for some time and hides it."""
+    """If the recording plan contains `watch`, the recording shows the panel for this time, then hides it."""
     panel = Noted()
     record_panel(panel, {"watch": 0, "calls": [["/switch/report", "std_srvs/Trigger", {}]]})
     assert panel.done == ["shown", "hidden"]

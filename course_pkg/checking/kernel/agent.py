@@ -226,7 +226,7 @@ def _class_name(cls: type) -> str:
 
 
 def _defined_here(name: str, value: Value) -> bool:
-    """Return whether the student may have defined a name: it is not imported and not from IPython."""
+    """Return whether the student may have defined `name`; imported names and IPython's names do not count."""
     return not name.startswith("_") and (
         not isinstance(value, FunctionType | type) or value.__module__ == "__main__"
     )

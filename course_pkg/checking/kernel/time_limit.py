@@ -37,7 +37,7 @@ class TimeLimit:
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
         self._error = _coming_again(TimesUp)
-        # This is the last time (s) at which _end() raised the error without catching it.
+        # This is the last time (s) at which _end() raised the error in the running code.
         self._raised = 0.0
         self._stopped = False  # The value is true after the user has pressed the Stop button.
 
@@ -67,7 +67,7 @@ class TimeLimit:
             raise KeyboardInterrupt
 
     def _end(self, _number: int, frame: FrameType | None) -> None:
-        """Raise the error at the current line of the student's code, or of a library that it called."""
+        """Raise the error at the current line of the student's code, or of a library that the code called."""
         if frame is None or not _is_called(frame):
             return
         now = time.monotonic()

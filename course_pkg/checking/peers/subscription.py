@@ -63,9 +63,9 @@ class Subscription:
         return self._arrivals[:count]
 
     def until(self, condition: Callable[[Sequence[Arrival]], bool], within: float = 5.0) -> bool:
-        """Wait until the function `condition` accepts the messages; return whether it accepts them.
+        """Wait until the function `condition` accepts the received messages, and return True.
 
-        The maximum waiting time is `within` (s).
+        If this takes longer than the time `within` (s), return False.
         """
         with self._arrived:
             return self._arrived.wait_for(lambda: condition(self._arrivals), within)

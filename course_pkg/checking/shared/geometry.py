@@ -10,8 +10,8 @@ from course_pkg.checking.plain_values import Message
 def random_boxes(context: CheckContext) -> list[list[float]]:
     """Return the length, the width and the height of random boxes.
 
-    The first box has the size of a table. After it, very small and large boxes, boxes with whole numbers, and
-    a cube follow in a random order, so that a server for boxes of one size fails.
+    The first box has the size of a table. The other boxes are very small boxes, large boxes,
+    boxes with whole numbers, and a cube, in a random order. A server for boxes of one size therefore fails.
     """
     sizes = [(0.5, 9.0, 2)] * context.random.integer(2, 4)
     sizes += [(0.02, 0.4, 3), (12.0, 900.0, 2), (1.0, 99.0, 0)]

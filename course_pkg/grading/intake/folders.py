@@ -15,8 +15,8 @@ from course_pkg.grading.intake.archive import is_litter, leads_out
 from course_pkg.grading.intake.naming import WRAPPING, Submitters, claims, unwrapped
 from course_pkg.grading.store import FOLDER
 
-# DEPTH is the maximum depth of a student's folder, because a platform can put it into one or two other
-# folders.
+# DEPTH is the maximum depth of a student's folder, because a platform can put this folder into one or two
+# other folders.
 DEPTH = 3
 PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 

@@ -64,7 +64,10 @@ def _read(source: str) -> _Cell:
 
 
 def tree_of(source: str) -> ast.Module:
-    """Return the syntax tree of a cell as IPython reads it; the tree is empty if the cell is not Python."""
+    """Parse a cell in the same way as IPython, and return the syntax tree.
+
+    If the cell is not Python, the tree is empty.
+    """
     from IPython.core.inputtransformer2 import TransformerManager
 
     empty = ast.Module(body=[], type_ignores=[])

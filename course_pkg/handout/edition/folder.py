@@ -105,7 +105,7 @@ class ReleaseFolder:
         return present is not None and present != wanted
 
     def _put(self, name: str, file: File) -> bool:
-        """Write a file, unless the same file already exists; return whether it was written."""
+        """Write a file, unless the same file already exists; return True if this function wrote the file."""
         path = self.path / name
         mode = 0o755 if file.executable else 0o644
         same = path.is_file() and not path.is_symlink() and path.read_bytes() == file.content

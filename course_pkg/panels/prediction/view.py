@@ -84,7 +84,7 @@ class Question(_PredictionPanel):
         )
 
     def compare(self, actual: object) -> Comparison:
-        """Store `actual`, the real result, and return a panel that shows it next to the prediction."""
+        """Store `actual`, the real result, and return a panel with the prediction and the result."""
         record = self._model.compare(actual)
         self.publish(compared=True)
         return Comparison(record)

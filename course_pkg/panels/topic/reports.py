@@ -34,7 +34,7 @@ class SubscriptionState(TypedDict):
 
 
 class ShownMessage(TypedDict):
-    """A received message for the page: its values in one line, or the reason why they cannot be shown."""
+    """A received message for the page: its values in one line, or the reason why no values can be shown."""
 
     number: int
     ago: float

@@ -57,7 +57,7 @@ def _place(cells: Cells, name: str) -> int:
 
 
 def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
-    """Copy a cell as JupyterLab does: with a new id and the same metadata."""
+    """Copy a cell in the same way as JupyterLab: the copy has a new id and the same metadata."""
     place = _place(cells, name)
     cells.insert(
         place + shift, {**copy.deepcopy(cells[place]), "id": f"copy-{shift}-{len(cells)}", "source": source}

@@ -182,7 +182,7 @@ def a_mirror(context: CheckContext) -> None:
 
 
 def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[Json, Json]:
-    """Return the first message that the student's code changed, as it was before and after the change.
+    """Return two versions of the first message that the student's code changed: before and after the change.
 
     If no message was changed, return ({}, {}).
     """

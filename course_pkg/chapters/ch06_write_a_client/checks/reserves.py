@@ -13,7 +13,7 @@ from course_pkg.checking.result import Result
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "next", "nowhere")
 # A service that does not respond may delay the result by at most this time in s; a correct function waits 1 s
-# for it.
+# for the response.
 LONGEST = 1.75
 # If a service does not respond, the client must wait at least this time in s before it calls the next
 # service.

@@ -20,7 +20,7 @@ from course_pkg.workspace import explain
 
 # A node must be on the graph within this time in s; it takes 1 s on an idle machine.
 STARTING = 30.0
-SETTLING = 4.0  # After the node is on the graph, it must serve its services within this time in s.
+SETTLING = 4.0  # A node must serve its services within this time in s after its registration.
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 SIMULATOR = "simulator"
 SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")
@@ -101,7 +101,7 @@ class World:
         return time.monotonic()
 
     def ends(self, running: Running, within: float) -> Finished:
-        """Wait until the student's program ends, for at most the time `within` (s); return how it ended."""
+        """Wait up to `within` s until the student's program ends; return how the program ended."""
         wait_until(lambda: running.status is not None, within, POLL)
         return running.stop()
 

@@ -156,7 +156,10 @@ def _prints_a_volume_of_0(context: CheckContext, client: Client) -> None:
 
 
 def _prints_more_answers(context: CheckContext, client: Client) -> None:
-    """Run the client a random number of times, so that it cannot predict a situation by counting its runs."""
+    """Run the client a random number of times.
+
+    A client that counts its runs therefore cannot predict the next situation.
+    """
     for _ in range(context.random.integer(0, 2)):
         name, sides, volume = _random_box(context)
         client.serve(name, partial(dict, volume=volume))

@@ -54,7 +54,7 @@ def compiled(context: CheckContext, file: str, text: str = "") -> Folder:
 
 @contextmanager
 def started(context: CheckContext, folder: Folder, service: str, name: str) -> Iterator[Running]:
-    """Run ./program as a node with a random name; it must not execute another program.
+    """Run ./program as a node with a random name; ./program must not execute another program.
 
     The program's service `service`, such as "box", is remapped to the name `name`.
     """

@@ -38,7 +38,7 @@ class SeenCustomers:
         )
 
     def show(self, customer: bool | None) -> None:
-        """From now on, publish the value `customer`; return when the first message with it has arrived."""
+        """From now on, publish the value `customer`; return when the first such message has arrived."""
         with self._lock:
             self.customer = customer
             self._send()
