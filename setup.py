@@ -1,6 +1,6 @@
-"""What catkin and pip both read; the rest stands in pyproject.toml.
+"""The settings that both catkin and pip read; pyproject.toml contains all other settings.
 
-catkin runs this file with a `setup` of its own and wants name, version and an explicit list.
+catkin runs this file with its own function `setup`, which needs the name, the version and a list of packages.
 """
 
 from pathlib import Path
@@ -14,7 +14,7 @@ PACKAGES = sorted(path.parent for path in HERE.glob("course_pkg/**/__init__.py")
 
 
 def names(pattern: str) -> list[str]:
-    """Return the files that match `pattern`, relative to this one."""
+    """Return the files that match `pattern`, relative to the folder of this file."""
     return sorted(str(path.relative_to(HERE)) for path in HERE.glob(pattern))
 
 

@@ -113,7 +113,7 @@ class Stage:
         self._end()
 
     def expect_visitor(self) -> None:
-        """Start the interpreter of the program `visitor` early, so that symptom() does not wait for it."""
+        """Start the interpreter of the program `visitor` early, so that symptom() does not have to wait."""
         if self._visitor is None:
             text = self.fault.visitor
             self._visitor = (

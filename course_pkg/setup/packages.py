@@ -87,7 +87,7 @@ def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
 
 
 def missing_packages(wanted: Iterable[str]) -> list[str]:
-    """Return those of the wanted packages that are not completely installed.
+    """Return the packages in `wanted` that are not completely installed.
 
     Raises SetupError if dpkg is missing.
     """

@@ -1,6 +1,6 @@
 """Measures the cost of calls and of the recorder.
 
-The calls are those with a timeout, those of the service panel, and those of the robust client.
+The benchmark measures calls with a timeout, calls of the service panel, and calls of the robust client.
 
 usage: ./course run python -m tests.bench.calls bounded|panel|robust|recorder [OPTION …]
 """

@@ -285,7 +285,7 @@ def test_empty_class_and_files_without_a_student(tmp_path: Path) -> None:
 
 
 def test_students_who_need_attention() -> None:
-    """A student with a problem or without points needs help; a student who is only late does not."""
+    """A student with a problem or without points needs help; a student who is only late needs no help."""
     empty = Grade("s05", "05", (report("05.1", Verdict.FAILED),))
     book = Book([*_two(), refused("s03"), refused("s04", "06"), empty])
     assert attention(book, "s01") == []

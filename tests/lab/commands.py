@@ -84,7 +84,7 @@ def alive(pid: int) -> bool:
 
 
 def having(pattern: bytes, pids: list[int]) -> list[int]:
-    """Return those of the given processes whose command line contains the pattern."""
+    """Return each given process that has the pattern in its command line."""
     found = []
     for pid in pids:
         with suppress(OSError):  # The process may have exited.

@@ -34,9 +34,9 @@ def test_a_turtle_that_rests_makes_one_row() -> None:
 
 
 def test_a_turtle_stands_still_in_the_replay_until_it_starts() -> None:
-    """When a resting turtle starts to move, the recording gets a row for the end of the rest.
+    """When a resting turtle starts to move, the recording gets a row for its last time at rest.
 
-    Without this row, the replay would move the turtle slowly during the whole rest.
+    Without this row, the replay would show a slow movement during the time at rest.
     """
     recording = filmed(*[at(3.0, speed=0.0)] * 10, at(3.1))
     assert [row[:3] for row in recording.rows] == [(0, 0, 3000), (9 * LOOK, 0, 3000), (10 * LOOK, 0, 3100)]

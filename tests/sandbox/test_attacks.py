@@ -47,7 +47,7 @@ def worker() -> Iterator[SandboxWorker]:
 
 @pytest.fixture(scope="module")
 def batch(worker: SandboxWorker, request: pytest.FixtureRequest) -> Iterator[str]:
-    """Yield the name of one kind of attacks.
+    """Yield the name of one kind of attack.
 
     After the tests of these attacks, assert that a right answer still passes.
     """

@@ -1,8 +1,8 @@
 """A check's copy of a student's catkin package, built in a separate folder, and the programs of this copy.
 
 If the student has not written a file, the check adds the course's version of this file. Therefore, one file
-can be examined before the student has written the others. Files can also be missing in grading, because a
-submission contains only the cells of the notebook.
+can be examined before the student has written the other files. Files can also be missing in grading,
+because a submission contains only the cells of the notebook.
 """
 
 from __future__ import annotations

@@ -25,16 +25,16 @@ def kind_names() -> list[str]:
 
 
 def title_of(kind: str) -> str:
-    """Return a report's heading for a kind of flags; for an unknown kind, return the name of the kind."""
+    """Return a report's heading for a kind of flag; for an unknown kind, return the name of the kind."""
     return str(_module(kind).TITLE) if kind in kind_names() else kind
 
 
 def wanted_kinds(names: Sequence[str]) -> list[str]:
-    """Return the kinds of flags that the option --flags selects.
+    """Return the kinds of flag that the option --flags selects.
 
     An empty option selects all kinds, and "none" selects no kind.
 
-    Raises GradingError if a name is not a kind of flags.
+    Raises GradingError if a name is not a kind of flag.
     """
     known = kind_names()
     if list(names) == [NONE]:

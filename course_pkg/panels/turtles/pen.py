@@ -64,7 +64,7 @@ class Pen:
     _last: Observation | None = None
 
     def observe(self, seen: Observation) -> Finding:
-        """Store the observation `seen`, and return the conclusion from it."""
+        """Store the observation `seen`; return the conclusion from this observation."""
         last, self._last = self._last, seen
         self.sure = False
         if last is None:

@@ -28,7 +28,7 @@ LONGEST = 1 << 20
 CHUNK = 1 << 16  # One read returns at most this number of bytes.
 CALLER = "/course"
 
-Place = tuple[str, str]  # The tuple contains a topic, and the address of a node that publishes on it.
+Place = tuple[str, str]  # The tuple contains a topic, and the address of a node that publishes on this topic.
 Received = Callable[[str, list[bytes]], None]
 
 

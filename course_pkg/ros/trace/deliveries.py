@@ -71,7 +71,7 @@ class Deliveries(rospy.SubscribeListener):
         return sum(each.sent for each in self._all())
 
     def peer_subscribe(self, _topic: str, _publish: object, _publish_to_one: object) -> None:
-        """Start counting the messages for a new subscriber, before rospy sends a latched message to it."""
+        """Start counting the messages for a new subscriber, before rospy sends the latched message."""
         self.update()
 
     def _all(self) -> tuple[Delivery, ...]:

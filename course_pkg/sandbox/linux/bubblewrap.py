@@ -103,7 +103,7 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 def _root_capabilities() -> Iterator[str]:
     """Yield the options that allow root to mount /proc, and to become the user nobody afterwards.
 
-    If bwrap mounted the new /proc, bwrap would also mount other folders over parts of it. The kernel would
+    If bwrap mounted the new /proc, bwrap would also mount other folders over parts of /proc. The kernel would
     then not allow the inner sandboxes to mount their own /proc.
     """
     yield from ("--dir", "/proc")

@@ -206,7 +206,8 @@ COURSE = Places.of().checkout / "course"
 def kill_main() -> None:
     """Repeatedly kill a run of the grading, and start it again in the same folder.
 
-    Print in how many runs the grades were the same as without a kill and no process remained.
+    Count the runs in which no process remained and the grades were the same as in a run without a kill. Print
+    the number.
     """
     times = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:

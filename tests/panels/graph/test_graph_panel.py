@@ -204,6 +204,6 @@ def test_a_graph_that_cannot_be_read_keeps_the_old_picture() -> None:
 
 
 def test_an_empty_graph_needs_no_graphviz(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """An empty graph causes no error without Graphviz."""
+    """If Graphviz is missing, an empty graph causes no error."""
     monkeypatch.setenv("PATH", str(tmp_path))
     assert laid_out(picture(snapshot())) == Layout()

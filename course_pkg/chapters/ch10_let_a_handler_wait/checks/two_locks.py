@@ -68,7 +68,7 @@ class CheckedLock:
 
     @remote
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Acquire the lock; the arguments are those of threading.Lock.acquire()."""
+        """Acquire the lock; threading.Lock.acquire() has the same arguments."""
         if self.owner == threading.get_ident() and blocking and timeout < 0:
             raise Deadlock("the thread already holds this lock")
         limited = blocking and timeout < 0

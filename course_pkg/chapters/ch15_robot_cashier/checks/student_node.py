@@ -30,7 +30,7 @@ STARTING = 40.0
 # more time.
 COMPLETE = 3.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
-# The check remaps global names to this namespace, and thus detects programs that use global names.
+# The check remaps global names to this namespace, so the check detects programs that use global names.
 WITH_SLASH = "with_slash"
 MISSING = (
     "The node called a service that did not exist yet, and rospy.ServiceException ended the node. "

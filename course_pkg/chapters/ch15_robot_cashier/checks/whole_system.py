@@ -176,7 +176,7 @@ class Counter:
         threading.Thread(target=self._publish, daemon=True).start()
 
     def show(self, customer: bool | None) -> None:
-        """From now on, publish frames with or without a customer; None means that no frames are published."""
+        """From now on, publish frames with a customer (True), without a customer (False), or none (None)."""
         self._shown = None if customer is None else self._frames[customer]
 
     def _publish(self) -> None:
