@@ -178,7 +178,7 @@ def report_from(data: Mapping[str, Value]) -> Report:
 
 
 def _block(label: str, text: str) -> list[str]:
-    """Return the text as lines of at most WIDTH characters; the first line begins with the label."""
+    """Return the text as lines of at most `WIDTH` characters; the first line begins with the label."""
     space = " " * len(label)
     lines = [
         part

@@ -14,7 +14,7 @@ from course_pkg.class_view.results import received
 from course_pkg.class_view.storage import DAY, Storage
 from course_pkg.types.fields import Plain
 
-# This is the time in s between two checks whether `course class --delete` has changed the database.
+# Every `LOOK` s, the service tests whether `course class --delete` has changed the database.
 LOOK = 0.5
 CLEANING = 3600.0  # This is the time in s between two deletions of old results.
 GATHER = 0.1  # Results that arrive within this time in s are sent to the page together.
@@ -69,7 +69,7 @@ class ClassService:
             try:
                 await self._refresh()
             except sqlite3.Error:
-                continue  # the database is busy, or the disk is full; the loop tries again after LOOK s
+                continue  # the database is busy, or the disk is full; the loop tries again after `LOOK` s
 
     async def _refresh(self) -> None:
         deleted = 0

@@ -25,7 +25,7 @@ TOOLS = {
 
 
 def probe(stage: Stage, tool: str) -> Seen:
-    """Run a tool from TOOLS on a stage's graph, and return the tool's output; a tool takes at most 10 s."""
+    """Run a tool from `TOOLS` on a stage's graph, and return the tool's output; a tool takes at most 10 s."""
     if tool == "again":
         return stage.symptom()
     if tool == "output":

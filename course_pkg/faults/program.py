@@ -84,7 +84,7 @@ class Program:
     def begin(self) -> None:
         """Run the code of a Python program, after its interpreter has started.
 
-        Raises NodeFailed if the interpreter ends, or does not start within READY s.
+        Raises NodeFailed if the interpreter ends, or does not start within `READY` s.
         """
         if self._pipes:
             self._await_byte(READY)

@@ -24,7 +24,7 @@ def main(argv: list[str]) -> None:
 
 
 def clean_up(master: str, namespace: str, folder: str) -> None:
-    """Delete the folder, and remove all registrations in the namespace repeatedly for DURATION s."""
+    """Delete the folder, and remove all registrations in the namespace repeatedly for `DURATION` s."""
     import shutil
     import time
 

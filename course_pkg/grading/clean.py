@@ -38,8 +38,8 @@ UNSEEN = re.compile(
 # ILLEGAL matches halves of surrogate pairs, and code points that are not characters.
 ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 BREAKS = re.compile("\r\n?|[\u2028\u2029]")
-# In a spreadsheet, a formula begins with a character in FORMULA; only some spreadsheets also accept the last
-# four of these, which are full-width characters.
+# In a spreadsheet, a formula begins with a character in `FORMULA`; only some spreadsheets also accept the
+# last four of these, which are full-width characters.
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
@@ -48,7 +48,7 @@ MARKED = re.compile(r"-[0-9a-f]{10}")
 
 
 def text(value: object, limit: int = LONG) -> str:
-    """Return the value as readable text, with at most `limit` characters and LINES lines."""
+    """Return the value as readable text, with at most `limit` characters and `LINES` lines."""
     whole = str(value)
     kept = BREAKS.sub("\n", ANSI.sub("", whole[: 4 * limit + 1000]))
     kept = ILLEGAL.sub("\ufffd", UNSEEN.sub("", kept))
@@ -82,7 +82,7 @@ def cell(value: object, limit: int = SHORT) -> str:
 
 
 def record(fields: Mapping[str, Plain]) -> dict[str, Plain]:
-    """Return the fields with cleaned keys and values; a list in the result has at most ITEMS items."""
+    """Return the fields with cleaned keys and values; a list in the result has at most `ITEMS` items."""
     return {line(key): _value(item) for key, item in fields.items()}
 
 

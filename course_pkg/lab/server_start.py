@@ -16,7 +16,7 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 # The server has to start within this time in s. The server usually needs 2 s. If the server's files are not
 # in the disk cache, the start takes much longer.
 READY = 60.0
-LOOK = 0.01  # This is the time in s between two checks whether the server answers.
+LOOK = 0.01  # This is the time in s between two attempts to reach the server.
 KEPT_LINES = 12  # number of lines of the server's log in an error message
 
 
@@ -48,7 +48,7 @@ def await_server(server: SupervisedProcess, scratch: Path) -> Address:
     """Wait until the server answers, and return its address.
 
     Raises PortTaken if another program took the port, and CourseError if the server ends for another reason,
-    or does not answer within READY seconds.
+    or does not answer within `READY` seconds.
     """
     deadline = time.monotonic() + READY
     # The server writes this file after it has chosen a port, and just before it listens.

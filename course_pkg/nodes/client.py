@@ -47,8 +47,8 @@ def measure(sides: tuple[float, float, float]) -> str:
     """Start the node, wait for the service, call it, and return its response as two lines.
 
     Raises MasterUnreachable if there is no master, and ServiceException if the call fails. Raises
-    ROSException if the service does not exist within TIMEOUT seconds, and CallTimeout if the response does
-    not arrive within TIMEOUT seconds.
+    ROSException if the service does not exist within `TIMEOUT` seconds, and CallTimeout if the response does
+    not arrive within `TIMEOUT` seconds.
     """
     # Raise an error if no master answers, because init_node would wait for ever.
     MasterClient(master_uri()).pid()

@@ -37,7 +37,7 @@ class PolledCamera:
         rospy.Subscriber("counter", UInt32MultiArray, self._watch.hear)
 
     def knows_the_shop(self) -> bool:
-        """Return whether a message of shop_camera has arrived in the last SILENCE seconds."""
+        """Return whether a message of shop_camera has arrived in the last `SILENCE` seconds."""
         return self._watch.silent_for < SILENCE
 
     def handle_request(self, request: PolledImageRequest) -> PolledImageResponse:

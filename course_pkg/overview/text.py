@@ -87,7 +87,7 @@ def _end(progress: Progress) -> Iterator[str]:
 
 
 def _wrapped(label: str, text: str) -> list[str]:
-    """Return the label and the text in lines of at most WIDTH characters.
+    """Return the label and the text in lines of at most `WIDTH` characters.
 
     All lines after the first line are indented.
     """

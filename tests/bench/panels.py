@@ -425,7 +425,7 @@ MANIFEST = "<package format='2'><name>{}</name><version>1.0.0</version></package
 
 
 def fill(folder: Path) -> None:
-    """Write PACKAGES packages into a folder, each with TYPES service types and TYPES message types."""
+    """Write `PACKAGES` packages into a folder, each with `TYPES` service types and `TYPES` message types."""
     for number in range(PACKAGES):
         root = folder / f"bulk_{number}"
         for half, text in (("srv", "geometry_msgs/Pose goal\n---\nbool done\n"), ("msg", "float64 x\n")):

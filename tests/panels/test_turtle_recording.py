@@ -19,7 +19,7 @@ def at(x: float, colour: Colour | None = BACKGROUND, speed: float = 1.0, y: floa
 
 
 def filmed(*snapshots: Observation) -> TurtleRecording:
-    """Return the recording of a turtle; consecutive observations are LOOK ms apart."""
+    """Return the recording of a turtle; consecutive observations are `LOOK` ms apart."""
     recording = TurtleRecording()
     for number, seen in enumerate(snapshots):
         recording.see(number * LOOK, "turtle1", seen)

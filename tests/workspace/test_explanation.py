@@ -23,7 +23,7 @@ GENERATE = "generate_messages()\n"
 PACKAGE = "catkin_package(CATKIN_DEPENDS message_runtime)\n"
 C, S, X = "CMakeLists.txt", "srv/Box.srv", "package.xml"
 
-# Each case of SLIPS has the files, the expected position, and a text that the explanation must contain.
+# Each case of `SLIPS` has the files, the expected position, and a text that the explanation must contain.
 SLIPS = {
     "message_generation missing": (
         spoilt(C, (" COMPONENTS message_generation", "")),
@@ -259,7 +259,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
     assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
 
 
-# Each entry of SAID has a command that runs after the build, and a text that the explanation must contain.
+# Each entry of `SAID` has a command that runs after the build, and a text that the explanation must contain.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
     "another Python": ("/usr/bin/python3 -S -c 'import numpy'", True, "#!/usr/bin/env python3"),

@@ -45,7 +45,7 @@ class PrintedText(io.TextIOBase):
         return True
 
     def write(self, text: str) -> int:
-        """Store the text; the total length is limited to PRINTED characters."""
+        """Store the text; the total length is limited to `PRINTED` characters."""
         self.text += text[: max(PRINTED - len(self.text), 0)]
         return len(text)
 

@@ -22,7 +22,7 @@ from course_pkg.grading.flags.syntax import UNREADABLE, is_python, tree
 from course_pkg.grading.flags.tokens import cpp_statements
 from course_pkg.grading.flags.work import Answer
 
-# If a function, a class or another block contains at least BLOCK statements, the block is one feature.
+# If a function, a class or another block contains at least `BLOCK` statements, the block is one feature.
 BLOCK = 3
 # A name with more pairs than this is ignored, because a name in many lines is not characteristic.
 PAIRS = 400

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from course_pkg.grading.flags.work import Answer
 from course_pkg.grading.rebuild.context import LONGEST, tree_of
 
-# The parser raises the errors in UNREADABLE for code that is nested too deeply, or contains a huge number.
+# The parser raises the errors in `UNREADABLE` for code that is nested too deeply, or contains a huge number.
 UNREADABLE = (RecursionError, ValueError, MemoryError)
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 

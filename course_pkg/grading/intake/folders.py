@@ -103,7 +103,7 @@ def _leads_to(parts: tuple[str, ...], folders: Sequence[str]) -> bool:
 
 
 def _folders(source: Path) -> Iterator[tuple[str, ...]]:
-    """Yield the path of each folder in `source`, with at most DEPTH names; links are not followed."""
+    """Yield the path of each folder in `source`, with at most `DEPTH` names; links are not followed."""
     if source.is_dir():
         yield from _below(source, ())
         return

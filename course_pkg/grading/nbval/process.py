@@ -26,7 +26,7 @@ from course_pkg.sandbox.linux import confinement, namespaces
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, run_master, too_much_memory_below
 from course_pkg.waiting import Deadline, at_this_load
 
-# If a cell runs too long, nbval ends the kernel within SILENCE s.
+# If a cell runs too long, nbval ends the kernel within `SILENCE` s.
 SILENCE = 15.0
 # TOGETHER is the limit in bytes for the total memory of pytest and all nodes of a chapter.
 TOGETHER = 2 * confinement.TOGETHER

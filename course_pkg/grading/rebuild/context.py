@@ -16,10 +16,10 @@ from dataclasses import dataclass
 
 # A cell with more than `LONGEST` characters is not parsed, because the parsing would take too much time.
 LONGEST = 20_000
-# A cell with magics and more than MAGICAL lines is not parsed, because IPython's time grows with the square
+# A cell with magics and more than `MAGICAL` lines is not parsed, because IPython's time grows with the square
 # of the number of lines.
 MAGICAL = 300
-# The syntax nodes in SCOPES have a separate scope: later cells cannot use the names that are assigned in
+# The syntax nodes in `SCOPES` have a separate scope: later cells cannot use the names that are assigned in
 # them.
 SCOPES = (
     *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda),

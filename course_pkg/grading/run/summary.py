@@ -13,7 +13,7 @@ SHOWN = 10  # SHOWN is the maximum number of names in a line.
 
 
 def status_of(graded: Sequence[Grade]) -> int:
-    """Return the exit status GRADED, or NEED_A_LOOK if an instructor has to examine a submission."""
+    """Return the exit status `GRADED`, or `NEED_A_LOOK` if an instructor has to examine a submission."""
     return NEED_A_LOOK if any(map(needs_look, graded)) else GRADED
 
 

@@ -9,7 +9,7 @@ from typing import TypeAlias, TypedDict
 from course_pkg.errors import FieldError
 from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-# An array with more than CONTROLS elements is shown as one line of text, without separate input fields.
+# An array with more than `CONTROLS` elements is shown as one line of text, without separate input fields.
 CONTROLS = 16
 LIMIT = 200  # A table has at most this many rows.
 ELEMENTS = 32  # A table shows at most this many elements of an array.

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 MOST = 4000  # The data contain at most this many events, which take about 200 kB in a saved page.
 KINDS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER, PUBLISH, CALLBACK)
 TICKS = 1e6  # The data contain times in whole microseconds; one second has this many microseconds.
-# The end of an event is OPEN if the event was not finished.
+# The end of an event is `OPEN` if the event was not finished.
 OPEN = -1
 
 

@@ -24,7 +24,7 @@ HERE = Path(__file__).parent
 TYPES = ("turtlesim/Pose", "turtlesim/Color")
 POSE = struct.Struct("<5f")
 SEND = 0.1  # SEND is the time in s between two messages to the page.
-KEEP = 5.0  # If no page shows the panel, the panel saves its state every KEEP s.
+KEEP = 5.0  # If no page shows the panel, the panel saves its state every `KEEP` s.
 ALONE = 300.0  # The recording stops if no page has shown the panel for this time (s).
 
 
@@ -72,7 +72,7 @@ class TurtlePanel(Panel):
         self._send_all()
 
     def hidden(self) -> None:
-        """Save the recording; if no page shows the panel again, the recording stops after ALONE seconds."""
+        """Save the recording; if no page shows the panel again, the recording stops after `ALONE` seconds."""
         self._page, self._left = Page.NONE, time.monotonic()
         self._keep()
 

@@ -15,7 +15,7 @@ from course_pkg.ros import Snapshot, look
 
 HERE = Path(__file__).parent
 PAUSE = 3.0  # PAUSE is the time in s between two checks of the files.
-# Reading all packages is slow on a machine with many packages. Therefore, at most 1 / SHARE of the time is
+# Reading all packages is slow on a machine with many packages. Therefore, at most 1 / `SHARE` of the time is
 # used for reading the packages.
 SHARE = 50
 

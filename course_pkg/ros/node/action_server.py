@@ -17,7 +17,7 @@ import rospy
 from course_pkg.ros.node.type_lookup import Message
 
 END_TIMEOUT = 2.0  # After a goal was cancelled, wait up to this time in s for the end of `execute`.
-INTERVAL = 0.5  # This is the time in s between two checks whether rospy has been shut down.
+INTERVAL = 0.5  # Every `INTERVAL` s, the server tests whether rospy has been shut down.
 
 Execute = Callable[[Message, actionlib.SimpleActionServer], object]
 

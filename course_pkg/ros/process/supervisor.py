@@ -105,10 +105,10 @@ class Supervisor:
                 self.status = status
 
     def _end_descendants(self) -> frozenset[int]:
-        """End all descendants with SIGTERM, or with SIGKILL after GRACE s.
+        """End all descendants with SIGTERM, or with SIGKILL after `GRACE` s.
 
         Orphaned descendants become children of this process. A descendant that is a supervisor is killed
-        GRACE s later, so that this supervisor can first clean up. The returned set contains the listening
+        `GRACE` s later, so that this supervisor can first clean up. The returned set contains the listening
         ports of the killed processes.
         """
         ports: frozenset[int] = frozenset()

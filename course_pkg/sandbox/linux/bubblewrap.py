@@ -127,9 +127,9 @@ def _file_system(shown: Sequence[Path]) -> Iterator[str]:
 
 
 def _shadows(shown: Sequence[Path]) -> Iterator[str]:
-    """Yield options that make the visible paths in /tmp and /dev/shm also visible in the folder SHADOW.
+    """Yield options that make the visible paths in /tmp and /dev/shm also visible in the folder `SHADOW`.
 
-    Each part mounts new folders at /tmp and /dev/shm, and then mounts the paths from SHADOW in these new
+    Each part mounts new folders at /tmp and /dev/shm, and then mounts the paths from `SHADOW` in these new
     folders.
     """
     inside = [path for path in dict.fromkeys(shown) if any(map(path.is_relative_to, MEMORY_FOLDERS))]

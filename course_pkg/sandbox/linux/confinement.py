@@ -20,8 +20,8 @@ PROCESSES = 200
 # The total size of all files in each of the folders /student and /tmp has this limit in bytes.
 DISK = 128 << 20
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
-# The visible paths in /tmp and /dev/shm are also mounted in the folder SHADOW; the variable SHADOWED lists
-# them.
+# The visible paths in /tmp and /dev/shm are also mounted in the folder `SHADOW`; the variable `SHADOWED`
+# lists them.
 SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"
 FILES = 20_000  # Each of the folders /student and /tmp may contain at most this number of files.
 FILE = 64 << 20  # A file has at most this size in bytes.

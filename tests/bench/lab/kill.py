@@ -44,7 +44,7 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
     """Kill the process whose command line contains the given text, and then stop `course lab`.
 
     If the text is empty, the function kills `course lab` itself. The files of `course lab` are in `folder`.
-    The function waits up to TIMEOUT until nothing is left. Return the waiting time in s, and the number of
+    The function waits up to `TIMEOUT` until nothing is left. Return the waiting time in s, and the number of
     remaining processes, sockets, mounts and files.
     """
     port, before = free_port(), files_in(folder)

@@ -35,7 +35,7 @@ CMake Error at my_services/CMakeLists.txt:6 (add_service_files):
 
 -- Configuring incomplete, errors occurred!
 """
-# Each entry of MESSAGES has an error message of rospy 1.15, and a text that the explanation must contain.
+# Each entry of `MESSAGES` has an error message of rospy 1.15, and a text that the explanation must contain.
 RESPONDED = "ServiceException: service [/x] responded with an error: "
 SERVER_REFUSED = f"{RESPONDED}b'service cannot process request: "
 HANDLER_FAILED = f"{RESPONDED}b'error processing request: "

@@ -43,7 +43,7 @@ MISSED = "Return how many numbers were published between the two received number
     runs=["server"],
 )
 def read_the_graph(context: CheckContext) -> None:
-    """Compare the names that the student found for the node, the service and the type with the right ones."""
+    """Compare the right names of the node, the service and the type with the names that the student found."""
     with context.goal(NODE):
         context.expect(
             "the name of the node is right",

@@ -18,7 +18,7 @@ WAITS_FOR_EVER = (
     "Wait at most 2 s for a subscriber. Then publish the numbers, even if the topic has no subscriber."
 )
 # The check calls the student's function without a subscriber. The function waits 2 s for a subscriber, and
-# then publishes numbers for about 1.1 s. When the publisher exists, the check waits COMES s, and then
+# then publishes numbers for about 1.1 s. When the publisher exists, the check waits `COMES` s, and then
 # subscribes.
 COMES, EARLIEST = 2.3, 2.7
 NO_WAIT = 0.7  # A function that waits less than this time in s does not wait for a subscriber.

@@ -50,7 +50,7 @@ def witness(message):
     witnessed.append(message)
 """
 FIELDS = ("name", "position", "velocity")
-# A call of draw() takes DRAWING s, and a call of prepare() takes PREPARING s.
+# A call of draw() takes `DRAWING` s, and a call of prepare() takes `PREPARING` s.
 DRAWING, PREPARING = 0.25, 0.02
 # The student's function must return within this time in s; on an idle machine, it takes a few ms.
 RETURNS = 1.5

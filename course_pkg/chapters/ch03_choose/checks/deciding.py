@@ -76,7 +76,7 @@ HOLLOW: Mapping[str, str] = {
     needs=["decisions"],
 )
 def decide_and_defend(context: CheckContext) -> None:
-    """Compare, for each task, the chosen design and then the chosen reason with the right ones."""
+    """For each task, assert that the chosen design is right, and then that the chosen reason is right."""
     decisions = context.read("decisions")
     context.require(
         "there is a decision for each task",

@@ -23,8 +23,8 @@ from course_pkg.ros.node.program import number_parameter, start_node, undisturbe
 from course_pkg.shop.counter import Counter, Visit
 from course_pkg.srv import LetIn, LetInRequest, LetInResponse
 
-PERIOD = 0.1  # While nothing changes, the camera publishes every PERIOD s.
-STAY = 4.0  # A random customer stays for STAY s.
+PERIOD = 0.1  # While nothing changes, the camera publishes every `PERIOD` s.
+STAY = 4.0  # A random customer stays for `STAY` s.
 
 
 class ShopCamera:

@@ -24,7 +24,7 @@ RUNS = 9.0
 WAITS = 4.0
 # LATE is the time in s between the first snapshot that contains the node and the start of the service.
 LATE = 0.5
-POLL = 0.2  # The check tests every POLL s whether the runs have ended.
+POLL = 0.2  # The check tests every `POLL` s whether the runs have ended.
 # A process that imports the file ends with this exit status, unless the file ends the process earlier.
 IMPORTED = 77
 IMPORT = f"import sys; sys.argv = ['fits.py']; import fits; sys.exit({IMPORTED})"

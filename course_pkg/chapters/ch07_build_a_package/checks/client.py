@@ -26,8 +26,8 @@ WAITED = re.compile("waiting for service|unavailable")
 # A run of the client may take up to this time in s: rospy needs 0.5 s to start (5 s on a busy machine), and
 # the client waits up to 5 s.
 WITHIN = 16.0
-# Without a server, the client has to end within WAITING s plus SLOWER times the duration of its fastest run
-# with wrong arguments. This duration shows how long a start takes on this machine now.
+# Without a server, the client has to end within `WAITING` s plus `SLOWER` times the duration of its fastest
+# run with wrong arguments. This duration shows how long a start takes on this machine now.
 WAITING, SLOWER = 7.0, 1.5
 
 START = f"""%%writefile {FILE}

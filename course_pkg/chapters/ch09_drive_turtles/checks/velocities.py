@@ -118,7 +118,7 @@ class Stream:
         )
 
     def has_no_extra_messages(self, service: Service, assertion: str, usual: float) -> None:
-        """Make CALLS calls at the same time, and assert that the program publishes no additional messages.
+        """Make `CALLS` calls at the same time, and assert that the program publishes no additional messages.
 
         `usual` is the number of messages per second without calls.
         """

@@ -82,7 +82,7 @@ class Proxies:
 
 
 class Gate:
-    """A server that waits until `count` calls arrive, but at most TOGETHER s, and responds `hold` s later."""
+    """A server that waits until `count` calls arrive, or for `TOGETHER` s; it responds `hold` s later."""
 
     def __init__(self, count: int, words: list[str], hold: float = 0.0) -> None:
         self.most = 0  # `most` is the maximum number of clients that waited at the same time.

@@ -27,7 +27,7 @@ SELDOM = 8
 LOOKS = 3000  # In `LONG` s, a loop without a pause calls watch.next() more than this many times.
 
 USED = 0.3  # USED is the CPU time in s that the kernel may use within `LONG` s.
-# In the fastest of ATTEMPTS calls, the response has to come within this time in s after the customer.
+# In the fastest of `ATTEMPTS` calls, the response has to come within this time in s after the customer.
 PROMPT = 0.45
 ATTEMPTS = 3
 

@@ -88,7 +88,7 @@ class Till:
         self._changed = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next calls wait until `crowd` calls have arrived; the maximum waiting time is MEETING s."""
+        """Let the next calls wait until `crowd` calls have arrived, but for at most `MEETING` s."""
         self._meets = True
 
     def __call__(self, request: Message) -> Act:

@@ -12,7 +12,7 @@ from course_pkg.checking.plain_values import Value
 
 # If a thread cannot acquire a lock within this time in s, the check assumes a deadlock.
 LIMIT = 4.0
-THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES moves.
+THREADS, MOVES = 4, 6  # There are `THREADS` threads, and each thread makes `MOVES` moves.
 BEGIN = 2.0  # All threads must have begun within this time in s.
 RUN = 14.0  # This time limit in s for all threads is enough for three consecutive deadlocks and all moves.
 

@@ -325,7 +325,7 @@ def _stops(context: CheckContext, watched: CheckedMaster, returns: Callable[[], 
 
 
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster, returns: Callable[[], bool]) -> str:
-    """Call stop() during a poll; return STOPPED if the watchdog then stops correctly.
+    """Call stop() during a poll; return `STOPPED` if the watchdog then stops correctly.
 
     `returns` unregisters the service, and returns whether the service is registered again.
 

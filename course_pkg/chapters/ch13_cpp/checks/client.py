@@ -73,7 +73,7 @@ class Client:
         return self.context.serve(name, BOX, answer)
 
     def run(self, name: str, sides: list[float]) -> Finished:
-        """Run the client for at most LIMIT s, and discard stderr; the client must not start a program."""
+        """Run the client for at most `LIMIT` s, and discard stderr; the client must not start a program."""
         words = [str(side) for side in sides]
         quiet = ["sh", "-c", 'exec "$0" "$@" 2> /dev/null', "./program", *words, f"/box:={name}"]
         with self.folder.start(*quiet, worded=f"patient_client {' '.join(words)}") as running:

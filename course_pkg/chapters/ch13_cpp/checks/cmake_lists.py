@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   std::cout << "DRAWN" << std::endl;
   return course_pkg::geometry::Request().length != 0;
 }
-"""  # A random text replaces DRAWN, so only a program built from this code prints the text.
+"""  # A random text replaces `DRAWN`, so only a program built from this code prints the text.
 
 # The student's CMakeLists.txt must not build a program from this file.
 OTHER_PROGRAM = "int main() { return 0; }\n"

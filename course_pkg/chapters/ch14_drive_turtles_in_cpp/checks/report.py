@@ -208,7 +208,7 @@ def _groups(report: Service, clients: int) -> Iterator[Reply]:
 
     On a busy machine, the calls of one group may arrive one after another, so one group is not enough. If
     threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, up to
-    FAILED groups may contain failed calls. After a deadlock, all later calls fail, so a deadlock is still
+    `FAILED` groups may contain failed calls. After a deadlock, all later calls fail, so a deadlock is still
     found.
     """
     failed = 0

@@ -191,7 +191,7 @@ def _serves_several_callers(context: CheckContext, detect: Service, vision: Seen
 def _calls_that_wait(
     pool: ThreadPoolExecutor, detect: Service, vision: SeenCustomers, later: float
 ) -> list[Future[tuple[float, bool]]]:
-    """Begin CALLERS calls one after another; later, let a customer come.
+    """Begin `CALLERS` calls one after another; later, let a customer come.
 
     `later` is the time in s until the customer comes.
 

@@ -222,7 +222,7 @@ class Call:
 
 
 class Detector:
-    """Responds to the calls according to STEPS, and records the calls."""
+    """Responds to the calls according to `STEPS`, and records the calls."""
 
     def __init__(self, wait: float) -> None:
         self.wait = wait
@@ -254,12 +254,12 @@ class Till:
 
 
 def _called(detector: Detector, times: int) -> bool:
-    """Return whether the detector receives `times` calls in total, the last of them within NEXT_CALL s."""
+    """Return whether the detector receives `times` calls in total, the last of them within `NEXT_CALL` s."""
     return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
 
 
 def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscription) -> None:
-    """Wait for the calls in STEPS in order, and check the `patience` and the time of each call."""
+    """Wait for the calls in `STEPS` in order, and check the `patience` and the time of each call."""
     for number, step in enumerate(STEPS):
         came = _called(detector, number + 1)
         before = STEPS[number - 1].name if number else "nothing"

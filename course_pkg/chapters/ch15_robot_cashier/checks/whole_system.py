@@ -254,7 +254,7 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer returns the value `customer` within REACTION s."""
+        """Return whether detect_customer returns the value `customer` within `REACTION` s."""
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
 
         def told() -> bool:
@@ -371,7 +371,8 @@ class Shop:
 def _waits_briefly(context: CheckContext, delay: float) -> None:
     """Report a failure if `delay`, the time in s before roslaunch restarts a node, is too long.
 
-    On a busy machine, the deadline for the restart is longer than BACK, so the check also reads the file.
+    On a busy machine, the deadline for the restart is longer than `BACK`, so the check also tests the
+    delay in the launch file.
     """
     if delay > BACK:
         expected = f"a restart within {BACK:g} s"

@@ -22,7 +22,7 @@ from course_pkg.shop.pictures import HEIGHT, WIDTH, frame_points
 from course_pkg.srv import LetIn, LetInRequest, LetInResponse
 
 RATE = 10.0  # The rate is in Hz.
-STAY = 4.0  # An additional customer stays for STAY s.
+STAY = 4.0  # An additional customer stays for `STAY` s.
 
 
 class CounterCamera:

@@ -28,8 +28,8 @@ LATE = 0.6  # LATE is the time in s between the call and the start of a late rob
 # rounds the time fails.
 SECONDS = 0.8
 SLACK = 3.0  # SLACK is the additional time in s that a call may take on a busy machine.
-LONGEST = 3.4  # If no robot runs, the fastest of ATTEMPTS calls may take up to this time in s.
-# If the robot ignores the cancellation, the fastest of ATTEMPTS calls may take up to this time in s.
+LONGEST = 3.4  # If no robot runs, the fastest of `ATTEMPTS` calls may take up to this time in s.
+# If the robot ignores the cancellation, the fastest of `ATTEMPTS` calls may take up to this time in s.
 STUBBORN = 3.9
 ATTEMPTS = 3
 BOUND = (

@@ -78,7 +78,7 @@ PATH_METHODS = frozenset(
     ]
 )
 PATHS = frozenset(["pathlib.Path", "pathlib.PosixPath"])
-# get_ipython() returns an object with the methods in SHELL, which run commands of the shell or of IPython.
+# get_ipython() returns an object with the methods in `SHELL`, which run commands of the shell or of IPython.
 SHELL = frozenset(["system", "getoutput", "run_line_magic", "run_cell_magic"])
 PLACES = re.compile(
     r"(^|[/.])solutions?([/.]|$)|/proc\b|/etc/|/home/|/root/|\.ipynb\b|site-packages|\.grading\b|grades/"
