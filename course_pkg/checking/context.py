@@ -337,7 +337,7 @@ class CheckContext:
     def under_way(self, call: str) -> None:
         """Show `call` in a report as the last call of the check.
 
-        Use this method before a call that no other method of the context makes.
+        Use this method before a call that does not use any other method of the context.
         """
         self.doing = f"waiting for {call}"
         self._results.asked = lambda: call

@@ -2,7 +2,7 @@
 "use strict";
 
 const SHOWN = 10; // Each list shows at most this many entries.
-const AGAIN = 1000; // After a failed request, the page waits this many ms.
+const AGAIN = 1000; // After a failed request, the page waits for this time in ms.
 const TICK = 10_000; // The times on the page are updated every TICK ms.
 const find = (id) => document.getElementById(id);
 const chapter = find("chapter");

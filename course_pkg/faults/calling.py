@@ -128,8 +128,8 @@ def _misname(stage: Stage) -> None:
     No other process can connect to this server, so this function does not wait for a response.
     """
     master = MasterClient(stage.uri)
-    # The client uses 127.0.0.1 as its own host name. If it used localhost, rospy would not try to resolve the
-    # server's host name.
+    # The client uses 127.0.0.1 as its own host name. If the client used localhost, rospy would not try to
+    # resolve the server's host name.
     stage.visitor_env = {"ROS_HOSTNAME": "127.0.0.1"}
     program = stage.keep(keeper(), {"ROS_HOSTNAME": NO_HOST})
     stage.await_that(lambda: master.lookup_service(stage.door), program)

@@ -124,7 +124,7 @@ export function send(model, content) {
   }
 }
 
-const ANSWER_TIMEOUT = 1500; // The kernel must answer within this many ms; an idle kernel needs 50 ms.
+const ANSWER_TIMEOUT = 1500; // The kernel must answer within this time in ms; an idle kernel needs 50 ms.
 const HEARTBEAT = 4000; // ms
 
 /**

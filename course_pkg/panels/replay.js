@@ -1,8 +1,8 @@
 /* The controls that play a recording: a button, a slider, the time as text, and the clock that moves them. */
 import { freshId, h, say, setAttribute } from "./kit.js";
 
-const NEAR = 50; // If Play is pressed less than this many ms before the end, the recording starts again.
-const ARROW = 100; // An arrow key moves the slider by this many ms.
+const NEAR = 50; // If Play is pressed less than this time in ms before the end, the recording starts again.
+const ARROW = 100; // An arrow key moves the slider by this time in ms.
 const CALM = 1000; // If the reader's system asks for less motion, this code draws a picture every CALM ms.
 
 /** Calls `told(visible)` now and after each change of the element's visibility.

@@ -21,8 +21,8 @@ HERE = Path(__file__).parent
 class Entry(NamedTuple):
     """A term, its meaning, its anchor, and a link to the section that explains it.
 
-    `page` is the address of the section that explains the term, and `where` names its chapter. `page` and
-    `where` are empty if no chapter explains the term.
+    `page` is the address of the section that explains the term, and `where` is the name of the
+    section's chapter. `page` and `where` are empty if no chapter explains the term.
     """
 
     term: str

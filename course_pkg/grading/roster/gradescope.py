@@ -30,7 +30,7 @@ def gradescope_people(source: Path) -> dict[str, Person]:
 
 
 def _people(content: bytes) -> dict[str, Person]:
-    """Return the data about each student in the metadata file with this content."""
+    """Return the data about each student; `content` is the content of Gradescope's metadata file."""
     records = gradescope_records(content)
     return {
         clean.identity(student): Person(

@@ -4,7 +4,7 @@ import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "..
 import { block, lookTitle } from "./parts.js";
 
 const STATES = { new: "not answered", wrong: "no right answer yet", shown: "answer shown", solved: "solved" };
-const SLOW = 1500; // If the kernel has not handled a click after this many ms, the panel shows the reason.
+const SLOW = 1500; // If the kernel has not handled a click after this time in ms, the panel shows the reason.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {

@@ -4,7 +4,7 @@ import { callLine, place } from "./calls.js";
 
 const SMALLEST = 0.65; // The automatic scale is not smaller than this value, because smaller names cannot be read.
 const STEP = 1.25;
-const FADE = 30; // The drawing shows a finished call for this many s.
+const FADE = 30; // The drawing shows a finished call for this time in s.
 
 export class Canvas {
   /** @param {(key: string, folded: boolean | null) => void} picked is called after a click on a shape */

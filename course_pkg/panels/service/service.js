@@ -5,9 +5,9 @@ import { command, valueTable } from "../forms/parts.js";
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { recorded } from "./recording.js";
 
-const SETTLE = 120; // The panel sends the draft if the student has pressed no key for this many ms.
+const SETTLE = 120; // The panel sends the draft if the student has pressed no key for this time in ms.
 const LONG = 8; // If a form has more fields than this, the response is below the form instead of beside it.
-const SLOW = 1500; // If a click has no answer after this many ms, the panel shows the reason.
+const SLOW = 1500; // If a click has no answer after this time in ms, the panel shows the reason.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement, signal?: AbortSignal}} context */
 function render({ model, el }) {

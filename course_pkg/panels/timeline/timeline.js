@@ -4,7 +4,7 @@ import { Drawing } from "./drawing.js";
 import { Scene } from "./scene.js";
 import { counted, duration, moment, parts, sentence, waiting } from "./sentences.js";
 
-const FINEST = 50; // The width of the page stands for at least this many µs.
+const FINEST = 50; // The width of the page stands for at least this time in µs.
 const HINT = "Drag to move. Zoom with Ctrl + wheel, or with + and −. The keys ← and → move the drawing, ↑ and ↓ select an event, and 0 shows everything.";
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */

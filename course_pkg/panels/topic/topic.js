@@ -6,10 +6,10 @@ import { freshId, h, kernelLink, same, say, send, setAttribute } from "../kit.js
 import { Chart } from "./chart.js";
 import { deliveries, figures, names, number, seconds, setting } from "./parts.js";
 
-const SETTLE = 120; // The panel sends typed texts if the student has pressed no key for this many ms.
-const SLOW = 1500; // If the kernel has not handled a click after this many ms, the panel shows the reason.
+const SETTLE = 120; // The panel sends typed texts if the student has pressed no key for this time in ms.
+const SLOW = 1500; // If the kernel has not handled a click after this time in ms, the panel shows the reason.
 const AGEING = 250; // The ages of the messages are updated every AGEING ms.
-const SPAN = 20; // The chart shows this many s.
+const SPAN = 20; // The chart shows this time in s.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {

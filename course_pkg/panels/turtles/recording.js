@@ -5,7 +5,7 @@
  * @typedef {{x: number, y: number, theta: number}} Place */
 
 export const SIDE = 500; // The simulator's paper is this many px wide and high.
-export const DELAY = 150; // The picture has a delay of this many ms, so the next position of each turtle is already known.
+export const DELAY = 150; // The picture has a delay of this time in ms, so the next position of each turtle is known.
 const WORLD = 11088.889; // The world is this many mm wide and high.
 const PEN = 3; // A pen has this default width in px, because no topic contains the width.
 

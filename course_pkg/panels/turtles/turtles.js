@@ -26,7 +26,7 @@ class TurtleView {
     this.visible = true;
     this.frame = 0;
     this.frames = 0;
-    this.lag = 0; // The recording's clock is this many ms ahead of the page's clock.
+    this.lag = 0; // The recording's clock is ahead of the page's clock by this time in ms.
     this.tabled = -TABLE;
     this.kept = 0;
     this.#build();

@@ -286,7 +286,8 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
 def _require_own_topics(context: CheckContext, viewer: Running, name: str, seen: Snapshot) -> None:
     """Assert that the student's program reports the topics that the master lists for the node `name`.
 
-    The master stores what any program registers, so the check also requests the topics from the program.
+    Any program can register topics under the name of this node, so the check also requests the topics from
+    the student's program.
     """
     node = seen.node(name)
     own: list[RpcValue] = []

@@ -81,7 +81,7 @@ def serves(context: CheckContext, running: Running, service: str, name: str, cod
 
 
 def _drops_the_service(code: str) -> bool:
-    """Return whether the code does not store the result of advertiseService, so that the service ends."""
+    """Return True if the code discards the result of advertiseService; such a service ends at once."""
     return bool(re.search(r"(?:^|[;{}])\s*\w+\.advertiseService", code))
 
 

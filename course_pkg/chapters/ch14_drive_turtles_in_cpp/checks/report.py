@@ -17,7 +17,7 @@ QUEUE = cpp("report_queue")
 SERVICES = ("battery", "report")
 GROUPS = 30  # The check makes this number of groups of simultaneous calls.
 FAILED = 2  # The check accepts failed calls in at most this number of groups.
-FEW, MANY = 3, 8  # These are the numbers of simultaneous clients.
+FEW, MANY = 3, 8  # FEW and MANY are the numbers of simultaneous clients in the two checks.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
     "The handler of /report waits for /battery, but no free thread can execute the handler of "

@@ -73,7 +73,7 @@ SHOWN = "For each valid frame, publish whether the frame shows a customer."
     goals={SHOWN: 3, "Publish nothing for malformed frames.": 1},
 )
 def the_vision(context: CheckContext) -> None:
-    """Send frames whose number of dark points is near the limit, padded frames, and invalid frames."""
+    """Send padded frames, invalid frames, and frames with a number of dark points near the limit."""
     with student_node(context, NAME, INTERFACE) as space:
         seen = context.subscribe(f"{space}/{SEEN}", BOOL)
         seen.published()
