@@ -161,7 +161,7 @@ class Relay:
 def _copy(
     source: socket.socket, sink: socket.socket, from_client: bool, connection: RelayedConnection
 ) -> None:
-    """Forward the bytes from one socket to another; at the end, end the stream to the other socket."""
+    """Forward the bytes from `source` to `sink`; after the last byte, end the stream to `sink`."""
     kept = 0
     # It is not an error if the connection was reset, or if close() ended the connection.
     with suppress(OSError):
