@@ -263,6 +263,10 @@ def by_proxy(uri, service, *sides):
     response = proxy(*sides)
     return response.area, response.volume""")
 
+# %% 11.3 wrong: reads the MD5 sum of the server | hint: Your function read a field that the header of this server does not have
+replace('\n        sock.sendall(struct.pack("<I", len(body)) + body)', """
+        assert theirs["md5sum"] == geometry._md5sum
+        sock.sendall(struct.pack("<I", len(body)) + body)""")
 # %% 11.3 wrong: no length in front of the request | hint: The request has to start with its length, 12, in 4 bytes
 replace('theirs = read_header … ", answer)', """receive(sock, size)
         sock.sendall(struct.pack("<3f", length, width, height))
