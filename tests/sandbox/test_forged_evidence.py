@@ -27,6 +27,10 @@ WRONG = {
     "08.5 as a dict": 2.0,
     "08.5 stores the type of each name": 2.0,
     "11.1 a list class with the name bytes": 0.0,
+    "10.2 looks twice a second": 0.0,
+    "10.2 keeps the processor busy": 0.0,
+    "12.1 looks at the thread all the time": 0.0,
+    "12.1 hides its processor time": 0.0,
 }
 
 
