@@ -111,7 +111,17 @@ def test_a_wrong_file_stops_the_review(tmp_path: Path, content: str) -> None:
 def _in_a_small_folder(source: Path, out: Path) -> list[str]:
     """Return a command that runs `course review` with a small file system at `out`, and a copy of `source`."""
     out.mkdir()
-    words = ["bwrap", "--die-with-parent", "--dev-bind", "/", "/", "--size", str(2 << 20), "--tmpfs", str(out)]
+    words = [
+        "bwrap",
+        "--die-with-parent",
+        "--dev-bind",
+        "/",
+        "/",
+        "--size",
+        str(2 << 20),
+        "--tmpfs",
+        str(out),
+    ]
     script = 'cp -r "$0/." "$1" && exec "$2" review "$1" --no-browser'
     return [*words, "sh", "-c", script, str(source), str(out), str(COURSE)]
 

@@ -45,7 +45,9 @@ def _grade(folder: Path, out: Path, *words: str) -> float:
 
 def _reports(out: Path) -> dict[str, str]:
     """Return a digest of each file of the reports; drafts that a killed run has left are not reports."""
-    files = [path for path in out.rglob("*") if path.is_file() and path.relative_to(out).parts[0] not in TIMED]
+    files = [
+        path for path in out.rglob("*") if path.is_file() and path.relative_to(out).parts[0] not in TIMED
+    ]
     return {
         str(path.relative_to(out)): hashlib.sha256(path.read_bytes()).hexdigest()
         for path in files
