@@ -17,12 +17,12 @@ from course_pkg.checking.commands.folder import SLACK, Folder
 from course_pkg.checking.formatting import shown
 from course_pkg.checking.peers.faulty_server import FaultyServer, Work
 from course_pkg.checking.peers.node import FakeNode, Node, held_back
+from course_pkg.checking.peers.processor_time import time_of_process
 from course_pkg.checking.peers.publisher import Publisher
 from course_pkg.checking.peers.scripted_server import Absent, Script, ScriptedServer
 from course_pkg.checking.peers.service_calls import TIMEOUT, Service
 from course_pkg.checking.peers.subscription import Subscription
 from course_pkg.checking.placed.host import PlacedObjects
-from course_pkg.checking.peers.processor_time import time_of_process
 from course_pkg.checking.plain_values import Item, ServiceClass, Value, of_kind, plain
 from course_pkg.checking.random_inputs import RandomInputs
 from course_pkg.checking.result import Finished, Result

@@ -346,8 +346,8 @@ BUILD_SLOW = {
     "a target that waits without end": "add_custom_target(wait ALL COMMAND sleep 1000)",
 }
 
-# This code replaces replies of the kernel agent about the student's objects. The check must then fail, because
-# the check runner has to receive data that only a right answer can produce.
+# This code replaces replies of the kernel agent about the student's objects. The check must then fail,
+# because the check runner has to receive data that only a right answer can produce.
 EVIDENCE = """
 def forge():
     import course_pkg.checking.kernel.agent as agent

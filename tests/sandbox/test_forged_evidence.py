@@ -1,4 +1,4 @@
-"""A wrong answer earns no additional points if the student's code replaces the replies of the kernel agent."""
+"""A wrong answer earns no additional points if its code replaces the replies of the kernel agent."""
 
 from __future__ import annotations
 

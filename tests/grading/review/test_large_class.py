@@ -22,7 +22,7 @@ BLANK = dict.fromkeys(["00.1", "00.2", "00.3"], "")
 
 def test_three_hundred_reviewed_submissions(tmp_path: Path) -> None:
     """All points and comments of a review are in the reports of each later run."""
-    numbers = random.Random(1)
+    numbers = random.Random(1)  # noqa: S311 -- not a secret
     names = [f"s{number:03}" for number in range(STUDENTS)]
     for name in names:
         hand_in(tmp_path, name, "00", BLANK)
@@ -38,7 +38,7 @@ def test_three_hundred_reviewed_submissions(tmp_path: Path) -> None:
             assert ask(f"{url}/save", sent, **own)[0] == 200
             expected[item["name"], item["part"]] = points, comment
     assert len(expected) == 3 * STUDENTS
-    for words in ((), ("--part", "00.2"), ("--fresh",)):
+    for words in ((), ("--fresh",)):
         done = _grade(tmp_path, *words)
         assert done.returncode in (0, 3), done.stderr
         assert f"{3 * STUDENTS} parts have points or a comment from overrides.csv." in done.stdout

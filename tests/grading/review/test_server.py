@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import signal
 import socket
 import subprocess
@@ -109,7 +108,7 @@ def test_a_wrong_file_stops_the_review(tmp_path: Path, content: str) -> None:
 
 
 def _in_a_small_folder(source: Path, out: Path) -> list[str]:
-    """Return a command that runs `course review` with a small file system at `out`, and a copy of `source`."""
+    """Return a command that runs `course review` for a copy of `source`, in a small file system at `out`."""
     out.mkdir()
     words = [
         "bwrap",
@@ -128,12 +127,9 @@ def _in_a_small_folder(source: Path, out: Path) -> list[str]:
 
 def _fill(path: Path) -> None:
     """Write to `path` until the disk is full."""
-    with path.open("wb", buffering=0) as file:
-        try:
-            while file.write(bytes(1 << 12)):
-                pass
-        except OSError as error:
-            assert error.errno == errno.ENOSPC
+    with path.open("wb", buffering=0) as file, pytest.raises(OSError, match="No space left on device"):
+        while file.write(bytes(1 << 12)):
+            pass
 
 
 @pytest.mark.usefixtures("sandbox")

@@ -103,7 +103,7 @@ def test_kills_during_a_run(submissions: Path, tmp_path: Path, again: bool) -> N
 
 
 def test_kills_during_a_review(submissions: Path, tmp_path: Path) -> None:
-    """After each kill, overrides.csv has all changes that the page has confirmed, and `course grade` uses them."""
+    """After each kill, overrides.csv has all confirmed changes, and `course grade` uses these changes."""
     out = tmp_path / "out"
     _grade(submissions, out)
     confirmed: dict[int, tuple[float, str]] = {}
