@@ -6,7 +6,7 @@ import signal
 import socket
 import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -127,7 +127,7 @@ def _in_a_small_folder(source: Path, out: Path) -> list[str]:
 
 def _fill(path: Path) -> None:
     """Write to `path` until the disk is full."""
-    with path.open("wb", buffering=0) as file, pytest.raises(OSError, match="No space left on device"):
+    with path.open("wb", buffering=0) as file, suppress(OSError):
         while file.write(bytes(1 << 12)):
             pass
 
