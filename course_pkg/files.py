@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def write_atomically(path: Path, content: str | bytes, encoding: str = "utf-8") -> None:
-    """Write `content` to `path`, and create missing folders.
+    """Write `content` to the file at the path `path`, and create missing folders.
 
     During the write, another process reads either the complete old file or the complete new file. Raises
     OSError if the file cannot be written, or UnicodeEncodeError if `encoding` cannot represent the text. In

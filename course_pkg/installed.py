@@ -9,18 +9,18 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-RECORD = "installation.json"  # a file in the folder of each complete version of a shared installation
-# a folder in the user's own folder: it contains the results, the settings of JupyterLab, and logs
+RECORD = "installation.json"  # This file is in each complete version of a shared installation.
+# This folder is in the user's own folder, and contains the results, the settings of JupyterLab, and logs.
 DATA = ".course"
 
 
 def version_folder(checkout: Path) -> Path | None:
-    """Return the installed version that contains `checkout`, or None if `checkout` is not installed."""
+    """Return the installed version that contains the checkout, or None if the checkout is not installed."""
     return checkout.parent if (checkout.parent / RECORD).is_file() else None
 
 
 def own_folder(checkout: Path) -> Path:
-    """Return the folder with the user's notebooks and `workspace`: `checkout`, if this is not installed.
+    """Return the folder with the user's notebooks and workspace: the checkout, unless it is installed.
 
     For a shared installation, the result is the folder in the variable COURSE_HOME, or ~/ros-course.
     """

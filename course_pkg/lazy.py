@@ -8,7 +8,7 @@ from typing import Any
 
 
 def lazily(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
-    """Return a `__getattr__` (PEP 562) for `package`.
+    """Return a `__getattr__` (PEP 562) for the package `package`.
 
     The keys of `homes` are modules, relative to the package. Each value is a string with the names that the
     module defines, separated by spaces.

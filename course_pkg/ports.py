@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 
 def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
-    """Return the first port of `candidates` on which a program can listen at `ip`; 0 means any port.
+    """Return the first port in `candidates` on which a program can listen at `ip`; 0 means any port.
 
     Raises OSError if there is no such port.
     """

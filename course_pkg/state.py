@@ -41,16 +41,17 @@ def state_folder() -> Path:
 
 
 def write_json(path: Path, data: Mapping[str, Any]) -> None:
-    """Write `data` to `path` as JSON, completely or not at all; raises OSError if this fails."""
+    """Write the data to a file as JSON, completely or not at all; raises OSError if this fails."""
     write_atomically(path, json.dumps(data, indent=1, sort_keys=True, ensure_ascii=False) + "\n")
 
 
 @contextmanager
 def locked(folder: Path, timeout: float = LOCK) -> Iterator[None]:
-    """Hold the lock of `folder` during the `with` block, so that no other process uses the folder.
+    """Hold the lock of the folder `folder` during the `with` block, so that no other process uses the folder.
 
     The folder is created if it is missing. Raises OSError if the lock cannot be created, or if another
-    process holds the lock for `timeout` s. On a file system without locks, the block runs without a lock.
+    process holds the lock for the time `timeout` (s). On a file system without locks, the block runs without
+    a lock.
     """
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / ".lock").open("ab") as file:
@@ -65,7 +66,7 @@ def now() -> str:
 
 
 def _lock(file: IO[bytes]) -> bool:
-    """Acquire the lock of `file`, or return False if another process has the lock.
+    """Acquire the lock of a file, or return False if another process has the lock.
 
     Closing the file releases the lock.
     """

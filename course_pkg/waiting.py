@@ -33,7 +33,7 @@ class Deadline:
 
     @property
     def milliseconds(self) -> int | None:
-        """The remaining milliseconds, rounded up, for select.poll; None if the deadline never passes."""
+        """The remaining milliseconds for select.poll, rounded up, or None if the deadline never passes."""
         return None if self.seconds is None else math.ceil(self.left * 1000)
 
     @property
@@ -48,10 +48,12 @@ def wait_until(
     interval: float = INTERVAL,
     stopped: threading.Event | None = None,
 ) -> Value:
-    """Return the first true value of `condition`; after `timeout` s, return its last value.
+    """Return the first true value of `condition`; after the time limit, return its last value.
 
-    The condition is evaluated immediately, then every `interval` s, and once more after the deadline. If the
-    event `stopped` is set, the wait ends early.
+    The time limit is `timeout` (s).
+
+    The condition is evaluated immediately, then repeatedly with pauses of `interval` (s), and once more after
+    the time limit. If the event `stopped` is set, the wait ends early.
     """
     deadline = Deadline(timeout)
     while True:
@@ -78,11 +80,12 @@ def at_this_load(seconds: float) -> float:
 
 @contextmanager
 def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 0.0) -> Iterator[None]:
-    """Raise `error` in the `with` block when the block has run for `seconds` s.
+    """Raise the error in the `with` block when the block has run for `seconds` s.
 
-    If `repeat` is not 0, the error is raised again every `repeat` s, for code that may catch the first error.
-    This function uses an alarm signal (SIGALRM). The block therefore has to run in the main thread, and must
-    not contain another such block. In any other thread, the function raises ValueError.
+    If `repeat` is not 0, the error is raised again and again, because code may catch the first error;
+    `repeat` is the time in s between two errors. This function uses an alarm signal (SIGALRM). The block
+    therefore has to run in the main thread, and must not contain another such block. In any other thread, the
+    function raises ValueError.
     """
 
     def alarm(*_: object) -> None:

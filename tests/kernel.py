@@ -81,7 +81,7 @@ class Kernel:
         self.exit()
 
     def ask(self, cell: str, timeout: float = TIMEOUT) -> Reply:
-        """Run a cell, and return its result or error. `timeout` is the time limit in s."""
+        """Run a cell, and return its result or error. The time limit is in s."""
         self.begin(cell)
         return self.reply(timeout)
 
@@ -111,7 +111,7 @@ class Kernel:
         os.killpg(self.pid, signal.SIGINT)
 
     def exit(self, timeout: float = 10.0) -> str:
-        """End the process within `timeout` s, and return its printed text."""
+        """End the process within a time limit (in s), and return its printed text."""
         try:
             printed, _ = self._process.communicate(timeout=timeout)
         except subprocess.TimeoutExpired:

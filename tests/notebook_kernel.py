@@ -78,9 +78,9 @@ class NotebookKernel:
         return self.shown(self.begin(code, cell), timeout)
 
     def shown(self, number: str, timeout: float = TIMEOUT) -> Shown:
-        """Wait for the end of the cell with the message id `number`, and return its outputs.
+        """Wait for the end of a cell, and return its outputs; `number` is the id of the cell's message.
 
-        Raises AssertionError if the cell takes longer than `timeout` s.
+        Raises AssertionError if the cell takes longer than the time limit (in s).
         """
         shown, deadline = Shown(), time.monotonic() + timeout
         while True:

@@ -55,11 +55,11 @@ class Selection:
         self._selected: dict[str, int] = {}
 
     def is_unchanged(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` passed, and its files have not changed since the last pass."""
+        """Return whether the test's group passed, and its files have not changed since the last pass."""
         return self._passed.get(group_of(item.nodeid)) == digest_of(group_of(item.nodeid))
 
     def has_changed(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` passed, but its files have changed since the last pass."""
+        """Return whether the test's group passed, but its files have changed since the last pass."""
         return group_of(item.nodeid) in self._passed and not self.is_unchanged(item)
 
     def note(self, report: pytest.TestReport) -> None:
@@ -122,7 +122,7 @@ class SelectionPlugin:
             self._selection.store()
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        """For each failed test, print the command that runs this test again."""
+        """Print, for each failed test, the command that runs this test again."""
         failed = [*terminalreporter.getreports("failed"), *terminalreporter.getreports("error")]
         names = dict.fromkeys(report.nodeid.split("@")[0] for report in failed)
         if names:
@@ -157,9 +157,10 @@ def digest_of(group: str) -> str:
 
 
 def _packages_below(folder: str) -> list[str]:
-    """Return the packages on which the folder tests/`folder` depends.
+    """Return the packages on which a folder of tests depends.
 
-    The result contains the packages in the import layer of course_pkg/`folder` and in all lower layers.
+    The package with the same name as the folder belongs to an import layer. The result contains all packages
+    of this layer and of all lower layers.
 
     If no package has the name of the folder, return all packages.
     """
@@ -172,7 +173,7 @@ def _packages_below(folder: str) -> list[str]:
 
 
 def chapter_paths(chapter: str) -> Iterator[str]:
-    """Yield the paths on which the tests of a chapter depend; if `chapter` is "", of all chapters."""
+    """Yield the paths on which the tests of a chapter depend; an empty string means all chapters."""
     for number in [chapter] if chapter else chapters():
         yield from (str(folder.relative_to(ROOT)) for folder in folders_for(number))
     for pattern in (f"solutions/{chapter}*", f"notebooks/{chapter}*"):
@@ -183,7 +184,7 @@ def chapter_paths(chapter: str) -> Iterator[str]:
 def _digest_of_folder(path: str, *, own: bool = False) -> str:
     """Return the digest of a file, of a module or of a folder.
 
-    If `own` is true, ignore the subfolders.
+    If `own` is true, ignore the subfolders of the folder.
     """
     where = ROOT / path
     found = where.glob("*" if own else "**/*") if where.is_dir() else [where, where.with_suffix(".py")]

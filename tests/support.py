@@ -33,7 +33,7 @@ def usual(count: int, cases: Mapping[str, object]) -> list[ParameterSet]:
 
 
 def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval: float = 0.01) -> Result:
-    """Call `condition` repeatedly, and return its first true value. Fail after `timeout` s."""
+    """Call a function repeatedly, and return its first true value. Fail after `timeout` s."""
     deadline = time.monotonic() + timeout
     while not (value := condition()):
         if time.monotonic() > deadline:
@@ -57,7 +57,7 @@ def stopped(pid: int) -> Iterator[None]:
 def process_state(pid: int) -> str:
     """Return the letter with which ps shows the state of a process.
 
-    For a process that has exited, return "Z".
+    If the process has exited, return "Z".
     """
     return _state(Path(f"/proc/{pid}/stat"))
 

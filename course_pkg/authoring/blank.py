@@ -174,7 +174,7 @@ class _Cell:
         return self._starts[node.end_lineno - 1] + node.end_col_offset  # type: ignore[attr-defined,no-any-return]
 
     def _column(self, node: ast.expr) -> int:
-        """Return the column after `node`, counted in characters.
+        """Return the column after the syntax node `node`, counted in characters.
 
         `tokenize` counts characters, but `ast` counts bytes.
         """
@@ -201,7 +201,7 @@ def _dots(target: ast.expr) -> str:
 
 
 def _parsed(source: str) -> tuple[str, ast.Module]:
-    """Parse `source`; return the text that was parsed, and its syntax tree.
+    """Parse the text `source`; return the text that was parsed, and its syntax tree.
 
     If `source` is not valid Python, each part that only IPython understands is first replaced by a name of
     the same length. Raises AuthoringError if this text is not valid Python either.
@@ -217,7 +217,10 @@ def _parsed(source: str) -> tuple[str, ast.Module]:
 
 
 def _masked(line: str) -> str:
-    """Return `line` with a name of the same length in place of a magic, a shell command or `name?`."""
+    """Return a line in which underscores replace an IPython magic, a shell command or `name?`.
+
+    The length of the line in bytes does not change.
+    """
     found = MAGIC.match(line)
     if not found:
         return line

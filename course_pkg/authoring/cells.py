@@ -107,7 +107,7 @@ def may_raise(cell: Cell) -> bool:
 
 
 def code_cells(notebook: Notebook) -> list[Cell]:
-    """Return the code cells of `notebook`, in their order."""
+    """Return the code cells of the notebook `notebook`, in their order."""
     return [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
 
 

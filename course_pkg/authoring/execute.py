@@ -27,7 +27,7 @@ from course_pkg.setup.progress import Progress
 CELL_TIMEOUT = 120  # A cell is stopped after this many s, because a reader should not wait longer.
 # Each core runs PER_CORE notebooks at the same time, because a notebook mostly waits for nodes and responses.
 PER_CORE = 3
-A_CELL = 2.0  # The estimate of a notebook's running time adds this many s for each cell.
+A_CELL = 2.0  # To estimate the running time of a notebook, add this many s for each cell.
 
 Finished = Callable[[str, Notebook], None]
 
@@ -38,7 +38,9 @@ def workers_here(notebooks: int) -> int:
 
 
 def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
-    """Run the solutions of `chapters`, such as ["05"], or of all chapters, and store them with their outputs.
+    """Run the solutions of the given chapters, or of all chapters, and store them with their outputs.
+
+    For example, `chapters` is ["05"].
 
     If a solution stops before its last cell, or if one of its checks does not pass, the file of this solution
     does not change. When all solutions have run, the function raises AuthoringError with all errors and
@@ -60,10 +62,10 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 
 
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
-    """Run all `notebooks`, several at the same time; the keys of `notebooks` are the names.
+    """Run all notebooks, several at the same time; the keys of `notebooks` are the notebooks' names.
 
-    Call `finished` with the name and the outputs of each notebook that ran to its last cell. Return a dict
-    with the error of each notebook that stopped earlier; the keys are the notebooks' names. A
+    Call the function `finished` with the name and the outputs of each notebook that ran to its last cell.
+    Return a dict with the error of each notebook that stopped earlier; the keys are the notebooks' names. A
     KeyboardInterrupt ends all kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
@@ -117,7 +119,7 @@ def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
 
 
 async def _run(name: str, notebook: Notebook, progress: Progress) -> Notebook:
-    """Run a copy of `notebook` in a new kernel with a separate master and separate folders.
+    """Run a copy of the notebook `notebook` in a new kernel with a separate master and separate folders.
 
     Return the copy.
     """
@@ -155,7 +157,8 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
         private = {
             "TMPDIR": temporary,
             "COURSE_STATE": folder / "state",
-            "COURSE_WORKSPACE": folder / "workspace",  # The chapters use the path ../workspace.
+            # The cells of the chapters use the relative path ../workspace.
+            "COURSE_WORKSPACE": folder / "workspace",
             "ROS_LOG_DIR": folder / "log",
         }
         environment = {**os.environ, **{name: str(path) for name, path in private.items()}}
@@ -164,7 +167,7 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
 
 
 def _by_files(folder: Path) -> Config:
-    """Return settings for a kernel that uses Unix sockets in `folder` instead of TCP ports.
+    """Return settings for a kernel that uses Unix sockets in the folder `folder` instead of TCP ports.
 
     Another program could take a TCP port before the kernel opens the port.
     """

@@ -41,7 +41,7 @@ def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
 
 
 def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[str, str]]:
-    """Yield an error for each exercise without points, without a check, or without an answer to remove."""
+    """Yield an error for each exercise without points, without a check, or without an answer."""
     for cell in code_cells(notebook):
         if not (exercise := exercise_of(cell)):
             continue

@@ -26,7 +26,7 @@ class NotebookStore:
         self.root = root or Path(course_pkg.__file__).resolve().parent.parent
 
     def solutions(self, chapters: Sequence[str] = ()) -> list[Path]:
-        """Return the paths of the solutions of `chapters`, such as ["05"], or of all chapters.
+        """Return the paths of the solutions of the given chapters, such as ["05"], or of all chapters.
 
         Raises AuthoringError if a chapter has no solution.
         """
@@ -89,7 +89,7 @@ def derived(solution: Notebook) -> Notebook:
 
 
 def read(path: Path) -> Notebook:
-    """Return the notebook at `path`; each text in it is one string.
+    """Return the notebook at the path `path`; each text in it is one string.
 
     Raises AuthoringError if the file cannot be read, or is not a notebook of format 4.
     """
@@ -107,7 +107,7 @@ def read(path: Path) -> Notebook:
 
 
 def text_of(notebook: Notebook) -> str:
-    """Return the content of the file for `notebook`. Raises AuthoringError if the format is invalid."""
+    """Return the content of a notebook's file. Raises AuthoringError if the format is invalid."""
     try:
         nbformat.validate(notebook)
     except nbformat.ValidationError as error:

@@ -30,7 +30,7 @@ class _Stored(NamedTuple):
 
 
 def add_pictures(executed: Notebook, stored: Notebook) -> None:
-    """Add a still picture to each panel of `executed`; `executed` itself is changed.
+    """Add a still picture to each panel of the notebook `executed`; this notebook itself is changed.
 
     The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
     show a recording, contain measured times, so they differ in each run. Such a picture depends on the code

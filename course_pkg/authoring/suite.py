@@ -35,7 +35,7 @@ class Tool:
     command: str
     output: str = ""
     passed: bool = False
-    took: float = 0.0  # s
+    took: float = 0.0  # The time is in s.
 
     def run(self, places: Places) -> None:
         """Run the tool, and wait until it has ended."""

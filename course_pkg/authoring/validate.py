@@ -23,7 +23,9 @@ PLUGINS = (
 def validate(
     notebooks: Sequence[Path], *, workers: int | None = None, timeout: float = 900.0, compare: bool = True
 ) -> subprocess.CompletedProcess[str]:
-    """Run nbval for `notebooks` in `workers` processes, and return the exit status and the output.
+    """Run nbval for the notebooks in parallel, and return the exit status and the output.
+
+    `workers` is the number of processes.
 
     Each notebook has its own master. All cells of a notebook run on the same worker (`--dist loadfile`),
     because two workers cannot share a kernel of nbval. nbval starts the kernel in the folder of the notebook.

@@ -115,7 +115,7 @@ class Results:
         return (self.marked | self._goals.keys()) - self.failed_goals
 
     def goal_ended(self, goal: str, *, fulfilled: bool) -> None:
-        """Record whether the assertions of `goal` hold; a goal that has failed once remains failed."""
+        """Record whether the assertions of a goal hold; a goal that has failed once remains failed."""
         self._goals[goal] = fulfilled and self._goals.get(goal, True)
 
     def passes(self, assertion: str) -> None:

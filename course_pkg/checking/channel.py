@@ -55,7 +55,8 @@ class Channel(JsonChannel):
     def __init__(self, sock: socket.socket) -> None:
         super().__init__(sock, LIMIT)
         self._asked = 0
-        self._asking = threading.Lock()  # A server of a check may ask while the check waits in its thread.
+        # The thread of a check's server may send a request while the thread of the check waits.
+        self._asking = threading.Lock()
 
     def ask(self, do: str, *, timeout: float, **arguments: Plain) -> dict[str, Json]:
         """Send the request `do` to the check client, and return its reply.
@@ -83,7 +84,7 @@ def require_current(reply: Mapping[str, Json]) -> None:
 
 
 def connect(address: str) -> Channel:
-    """Connect to a check runner at `address`, the path of a Unix socket or host:port.
+    """Connect to the check runner at `address`, which is the path of a Unix socket or host:port.
 
     Raises ChannelClosed if no runner accepts the connection.
     """

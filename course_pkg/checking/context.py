@@ -127,7 +127,9 @@ class CheckContext:
     def service(
         self, name: str, kind: str | ServiceClass, *, hints: Hints = (), timeout: float = TIMEOUT
     ) -> Service:
-        """Return the service `name` of type `kind`, ready to be called; each call takes at most `timeout` s.
+        """Return the service `name` of the type `kind`, ready to be called.
+
+        Each call takes at most `timeout` s.
 
         `kind` is a type's name, or a class. Asserts that a server of this type is registered and responds.
         `hints` are for the error message of a failed call; for ROS's own error messages, no hints are needed.
@@ -188,7 +190,9 @@ class CheckContext:
     # -- servers and topics for the student's client
 
     def serve(self, name: str, kind: str | ServiceClass, script: Script) -> ScriptedServer:
-        """Serve `name` with the function `script` (see peers/scripted_server.py) until the check ends.
+        """Offer the service `name` with the function `script` until the check ends.
+
+        See peers/scripted_server.py.
 
         `kind` is a type's name, or a class. After the check, the former server is registered again.
         """
@@ -196,13 +200,16 @@ class CheckContext:
         return self._open.enter_context(ScriptedServer(self._node, name, cls, script))
 
     def faulty(self, name: str, kind: str, work: Work) -> FaultyServer:
-        """Serve `name` with the handler `work`, and with planned faults (see peers/faulty_server.py)."""
+        """Offer the service `name` with the handler `work` and with planned faults.
+
+        See peers/faulty_server.py.
+        """
         server = FaultyServer(self._node, name, self.service_class(kind), work)
         self._open.enter_context(server)
         return server
 
     def absent(self, name: str, *, stale: bool = False) -> Absent:
-        """Unregister the server of `name` until the check ends.
+        """Unregister the server of the service `name` until the check ends.
 
         If `stale` is true, register an address with a closed port for the service.
         """
@@ -217,7 +224,7 @@ class CheckContext:
         every: float = 0.05,
         once: bool = False,
     ) -> Publisher:
-        """Publish `messages` repeatedly, one message every `every` s.
+        """Publish `messages` repeatedly; the time between two messages is `every` s.
 
         Each message is a dict of its fields, and `kind` is the name of its type.
 
@@ -238,7 +245,7 @@ class CheckContext:
     def fake_node(
         self, name: str, topic: str, kind: str, *, alive: bool = True, reused: bool = False
     ) -> FakeNode:
-        """Register a fake node, which has no process, as a publisher of `topic`.
+        """Register a fake node, which has no process, as a publisher of the topic `topic`.
 
         If `alive` is true, the node responds to a ping. If `alive` is false, the node seems to be killed.
         """
@@ -247,7 +254,7 @@ class CheckContext:
     # -- the student's topics
 
     def subscribe(self, topic: str, kind: str) -> Subscription:
-        """Subscribe to `topic` until the check is over; see peers/subscription.py.
+        """Subscribe to the topic `topic` until the check is over; see peers/subscription.py.
 
         Subscribe before the student's function publishes, because a late subscriber misses messages.
         """
@@ -269,7 +276,7 @@ class CheckContext:
         worded: str = "",
         **kwargs: Value,
     ) -> Result:
-        """Call the student's `function` in the kernel, and interrupt it after `within` s.
+        """Call the student's function in the kernel, and interrupt it after its time limit `within` (s).
 
         If `within` is not given, the time limit is 5 s on an idle machine, and more on a busy machine. A
         report shows the call as Python code, or the text `worded` instead.
@@ -292,7 +299,7 @@ class CheckContext:
     def prepare(self, code: str, within: float = 5.0) -> None:
         """Run the check's own `code` in the kernel, separately from the student's names.
 
-        The names that `code` defines can be arguments of the student's function, such as `service` in
+        The names that this code defines can be arguments of the student's function, such as `service` in
         `context.run("close", Its("service"))`. The student's code can modify these objects, so store the
         check's data in an object for which place() defines a proxy. Raises CheckError if the code fails.
         """
@@ -302,12 +309,12 @@ class CheckContext:
             raise CheckError(f"The check could not prepare the kernel ({text}). Restart the kernel.")
 
     def place(self, name: str, item: object) -> None:
-        """Define `name` in the kernel as a proxy for `item`, which is in this process; see checking/placed.
+        """Define the name `name` in the kernel as a proxy for an object of this process; see checking/placed.
 
         The proxy has the methods and attributes that the class of `item` declares with `@remote`. The proxy
         can be an argument of the student's function, such as in `context.run("move", Its("shelf"))`. The code
-        of `prepare` can also use the proxy. Store all data that the check trusts in `item`, not in variables
-        of the code of `prepare`.
+        of `prepare` can also use the proxy. If the check must be able to trust data, store them in the object
+        `item`, not in variables of the code of `prepare`.
         """
         if self._placed is None:
             self._placed = self._open.enter_context(PlacedObjects())
@@ -324,7 +331,8 @@ class CheckContext:
     def command(self, *argv: str, files: Sequence[str] = (), within: float = 10.0) -> Finished:
         """Run a command on the kernel's computer, in a new folder with copies of the student's `files`.
 
-        The command "python" starts the kernel's own interpreter. After `within` s, the command is stopped.
+        The command "python" starts the kernel's own interpreter. After the time limit `within` (s), the
+        command is stopped.
         """
         return self.folder(files=files).command(*argv, within=within)
 
@@ -387,7 +395,7 @@ class CheckContext:
 
 @dataclass(frozen=True)
 class Its:
-    """An argument for `CheckContext.run`: the value that `name` has in the kernel."""
+    """An argument for `CheckContext.run` that stands for the value of `name` in the kernel."""
 
     name: str
 

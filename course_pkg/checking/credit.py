@@ -34,7 +34,7 @@ def goals_of(check: str, points: int, given: Sequence[str] | Mapping[str, float]
 
 
 def divided(points: float, weights: Sequence[float]) -> list[float]:
-    """Divide `points` in proportion to `weights`; at least one weight has to be positive.
+    """Divide the points in proportion to the weights; at least one weight has to be positive.
 
     The shares have two decimals, and their sum is exactly `points`. For example, three goals with 2 points in
     total get 0.67, 0.67 and 0.66 points.

@@ -1,4 +1,4 @@
-"""The cells that run before and after an answer when it is examined outside of its notebook.
+"""The cells that run before and after an answer if it is examined without its notebook.
 
 `fixtures.py`, next to the checks of a chapter, contains them in percent format:
 

@@ -14,7 +14,7 @@ def command_line(name: str, kind: ServiceClass, request: Message) -> str:
 
 
 def explained(error: str) -> str:
-    """Return the meaning of a ROS error message, and what the student can do; "" for an unknown message."""
+    """Return the meaning of a ROS error message and what the student can do, or "" for an unknown message."""
     if error.startswith("TimesUp"):
         return (
             "The call has not returned, because the handler does not return. Look for an "

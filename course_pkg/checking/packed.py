@@ -26,7 +26,7 @@ load(
 
 
 def pack(source: str) -> str:
-    """Return packed source; a module with the packed source does the same as a module with `source`."""
+    """Return packed source; a module with the packed source does the same as the original module."""
     packed = base64.b85encode(zlib.compress(source.encode(), 9)).decode()
     return MODULE.format("\n".join(textwrap.wrap(packed, WIDTH, break_on_hyphens=False)))
 

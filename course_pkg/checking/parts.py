@@ -113,7 +113,7 @@ def exercise_of(check: str) -> str:
 
 
 def add_private(folder: str) -> None:
-    """Add the parts of the modules private_NN.py in `folder`; a part "05.1.1" belongs to exercise 05.1."""
+    """Add the parts in the files private_NN.py of a folder; a part "05.1.1" belongs to exercise 05.1."""
     importlib.import_module(CHAPTERS).__path__.append(folder)
 
 
@@ -128,9 +128,10 @@ def folder_of(chapter: str) -> Path:
 
 
 def folders_for(chapter: str) -> list[Path]:
-    """Return, sorted, the folder of a chapter, such as "14", and the folders of the chapters that it imports.
+    """Return the folder of a chapter, such as "14", and the folders of the chapters that it imports.
 
-    Chapters that are imported indirectly are included. For an unknown chapter, the list is empty.
+    The list is sorted, and includes the chapters that are imported indirectly. For an unknown chapter, the
+    list is empty.
     """
     modules, found, new = _modules(), set[str](), {chapter}
     while new := (new & modules.keys()) - found:
@@ -140,7 +141,7 @@ def folders_for(chapter: str) -> list[Path]:
 
 
 def _imported(folder: Path) -> set[str]:
-    """Return the numbers of the chapters from which the modules in `folder` import."""
+    """Return the numbers of the chapters from which the modules in the folder `folder` import."""
     texts = (path.read_text("utf-8") for path in folder.rglob("*.py"))
     return {number for text in texts for number in IMPORTED.findall(text)}
 

@@ -21,7 +21,7 @@ ITEMS = 10_000
 
 
 def of_kind(kind: type[Item], value: Json, name: str) -> Item:
-    """Return `value`, which must be an instance of `kind`.
+    """Return the value, which must be an instance of the class `kind`.
 
     Raises CheckError for a value of another class: student code has then changed an object of the check in
     the kernel.
@@ -35,7 +35,7 @@ def of_kind(kind: type[Item], value: Json, name: str) -> Item:
 
 
 def plain(value: Value, depth: int = DEPTH) -> Json:
-    """Return `value` as None, bool, int, float, str, list and dict.
+    """Return `value` as plain data, made of None, bool, int, float, str, list and dict.
 
     A ROS message becomes a dict of its fields, bytes become a list of integers, and a NumPy scalar becomes a
     number. Any other value becomes {"object": name of its type}; no check expects this value.

@@ -18,11 +18,11 @@ class RandomInputs:
         self._words: list[str] = []
 
     def number(self, low: float, high: float, *, digits: int = 2) -> float:
-        """Return a number between `low` and `high` with at most `digits` decimals."""
+        """Return a random number between the limits `low` and `high`, with at most `digits` decimals."""
         return round(self._random.uniform(low, high), digits)
 
     def numbers(self, count: int, low: float, high: float, *, digits: int = 2) -> list[float]:
-        """Return `count` different numbers.
+        """Return a list of `count` different random numbers.
 
         With equal numbers, a program that confuses two of them could pass.
         """
@@ -34,7 +34,7 @@ class RandomInputs:
         return found
 
     def integer(self, low: int, high: int) -> int:
-        """Return a random integer from `low` to `high`, including both limits."""
+        """Return a random integer between the limits `low` and `high`; the limits are possible results."""
         return self._random.randint(low, high)
 
     def integers(self, count: int, low: int, high: int) -> list[int]:
@@ -42,15 +42,15 @@ class RandomInputs:
         return self._random.sample(range(low, high + 1), count)
 
     def choice(self, items: Sequence[Item]) -> Item:
-        """Return a random item of `items`."""
+        """Return a random item of the sequence `items`."""
         return self._random.choice(items)
 
     def shuffled(self, items: Sequence[Item]) -> list[Item]:
-        """Return `items` in a random order."""
+        """Return the items in a random order."""
         return self._random.sample(items, len(items))
 
     def word(self, length: int = 6) -> str:
-        """Return a random word of `length` lower-case letters."""
+        """Return a random word; `length` is the number of its lower-case letters."""
         self._words.append("".join(self._random.choices(string.ascii_lowercase, k=length)))
         return self._words[-1]
 

@@ -105,7 +105,10 @@ class StudentRecord:
             )
 
     def _read(self, check: str) -> PartRecord | None:
-        """Return the record of a part, or None if there is no record. Raises DamagedRecord."""
+        """Return the record of a part, or None if there is no record.
+
+        Raises DamagedRecord if the file cannot be read or contains no record.
+        """
         try:
             data = json.loads(self._path(check).read_text("utf-8"))
         except FileNotFoundError:
@@ -119,7 +122,7 @@ class StudentRecord:
 
 
 def _record(check: str, data: object) -> PartRecord | None:
-    """Return the record of a part in `data`, or None if the data are not from `store`."""
+    """Return the record of a part in `data`, or None if store() has not written `data`."""
     if not isinstance(data, dict):
         return None
     texts = [data.get(name) for name in ("verdict", "checked", "passed")]

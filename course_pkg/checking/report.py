@@ -60,7 +60,8 @@ class Review:
     """An instructor's decision about an answer after the check."""
 
     comment: str = ""  # This comment is for the student.
-    # These are the points of the check if the instructor has confirmed or changed them; otherwise, None.
+    # These are the points of the check if the instructor has confirmed or changed them. Otherwise, the value
+    # is None.
     computed: float | None = None
     outdated: bool = False  # The value is true if the answer has changed since the review.
 
@@ -177,7 +178,7 @@ def report_from(data: Mapping[str, Value]) -> Report:
 
 
 def _block(label: str, text: str) -> list[str]:
-    """Return `text` as lines of at most WIDTH characters; the first line begins with `label`."""
+    """Return the text as lines of at most WIDTH characters; the first line begins with the label."""
     space = " " * len(label)
     lines = [
         part

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Mapping
 from typing import overload
 
@@ -91,9 +92,12 @@ class Finished:
         self.out = str(reply.get("out", ""))
         self.err = str(reply.get("err", ""))
         self.took = took if isinstance(took, float) else 0.0  # The command took this time in s.
+        # `ago` is the time in s between the end of the command and this reply; only stop() sends it.
+        ago = reply.get("ago")
+        self.ended = time.monotonic() - (ago if isinstance(ago, float) else 0.0)  # s, time.monotonic()
         # `ran` is the CPU time in s of a command that was stopped at its time limit. `queued` is the time in
         # s for which the command waited for a CPU.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0
-        # The waiting time is infinity if the kernel did not send a waiting time.
+        # If the kernel did not send a waiting time, the waiting time is infinite.
         self.queued = queued if isinstance(queued, float) else math.inf

@@ -15,7 +15,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from course_pkg.class_view.tokens import Tokens
 from course_pkg.types.fields import Plain
 
-TIMEOUT = 10.0  # s
+TIMEOUT = 10.0  # The time is in s.
 KEPT = 60.0  # An answer of the hub is stored and reused for this time in s.
 MOST = 1_000  # At most this number of the hub's answers is stored.
 
@@ -28,10 +28,16 @@ class Identity(Protocol):
     """Decides who owns a token."""
 
     async def student(self, token: str) -> str | None:
-        """Return the student who owns a token, or None. Raises HubUnreachable."""
+        """Return the student who owns a token, or None.
+
+        Raises HubUnreachable if the hub does not answer.
+        """
 
     async def is_teacher(self, token: str) -> bool:
-        """Return whether the owner of a token may open the page. Raises HubUnreachable."""
+        """Return whether the owner of a token may open the page.
+
+        Raises HubUnreachable if the hub does not answer.
+        """
 
 
 class LocalIdentity:
@@ -62,7 +68,7 @@ class HubService:
 
     @classmethod
     def of(cls, environment: Mapping[str, str]) -> HubService | None:
-        """Return the data in the environment; None if this process is not a service of a hub."""
+        """Return the data in the environment, or None if this process is not a service of a hub."""
         if not (prefix := environment.get("JUPYTERHUB_SERVICE_PREFIX")):
             return None
         return cls(

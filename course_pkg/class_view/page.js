@@ -1,22 +1,23 @@
-// The class view: asks the service for changes without end, and shows them.
+// The class view: this script repeatedly asks the service for changes, and shows them.
 "use strict";
 
-const SHOWN = 10; // most entries of each list
-const AGAIN = 1000; // ms until the next request after a failed one
-const TICK = 10_000; // ms between two updates of the times
+const SHOWN = 10; // Each list shows at most this many entries.
+const AGAIN = 1000; // After a failed request, the page waits this many ms.
+const TICK = 10_000; // The times on the page are updated every TICK ms.
 const find = (id) => document.getElementById(id);
 const chapter = find("chapter");
 const recent = find("recent");
 const hide = find("hide");
 
-// What the service has sent. A cell is { student, part, tries, passed, stuck, last }, with times in s.
+// These variables contain the data that the service has sent. A cell is { student, part, tries, passed,
+// stuck, last }, with times in s.
 let epoch = "";
 let version = -1;
-let offset = 0; // s: the service's clock minus this computer's clock
-let students = []; // [username, name, number]
+let offset = 0; // the service's clock minus this computer's clock, in s
+let students = []; // Each entry is [username, name, number].
 let cells = new Map();
 let hints = new Map();
-let fields = new Map(); // the table's field of each cell, by the cell's key
+let fields = new Map(); // This map finds the table field of a cell by the cell's key.
 let layout = ""; // the students and parts that the table shows
 
 const keyOf = (student, part) => `${part} ${student}`;

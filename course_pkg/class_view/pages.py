@@ -22,7 +22,7 @@ from course_pkg.web_pages.handler import ASSETS, PageHandler, templates_in
 HERE = Path(__file__).parent
 LARGEST = 500_000  # A request has at most this number of bytes.
 WAIT = 20.0  # A request for changes waits at most this time in s.
-SESSION, STATE = "course-class", "course-class-state"  # cookies
+SESSION, STATE = "course-class", "course-class-state"  # These are the names of the cookies.
 DAYS = 1.0  # a teacher's session ends after this number of days
 
 
@@ -94,7 +94,7 @@ class Unknown(Handler):
     """Refuses a request if no other handler has its address."""
 
     def get(self) -> None:
-        """Send 404."""
+        """Send an error with the status 404."""
         self.refuse_path()
 
 
@@ -155,7 +155,7 @@ class TeacherHandler(Handler):
 
 
 class Page(TeacherHandler):
-    """The page."""
+    """Sends the page."""
 
     async def get(self) -> None:
         """Send the page."""

@@ -13,7 +13,7 @@ ID = re.compile(r"[0-9A-Za-z-]{1,64}")
 CHECK = re.compile(r"\d\d(?:\.\d{1,2}){1,2}")
 VERDICTS = ("passed", "not yet", "not attempted", "not examined")
 PASSED, NOT_ATTEMPTED = VERDICTS[0], VERDICTS[2]
-LONGEST_HINT = 500  # characters
+LONGEST_HINT = 500  # The length is in characters.
 MOST = 100  # A request contains at most this number of results.
 
 
@@ -35,8 +35,8 @@ def received(student: str, data: object, now: float, oldest: float) -> tuple[lis
     `data` is the JSON data of the request.
 
     The id of an invalid item is also returned, so that the student's server does not send this item again. A
-    time in the future is replaced by `now`, and a time before `oldest` is replaced by `oldest`. Raises
-    ValueError if `data` is not a list of at most MOST results.
+    time in the future is replaced by the time `now`, and a time before the time `oldest` is replaced by
+    `oldest`. Raises ValueError if `data` is not a list of at most MOST results.
     """
     sent = data.get("results") if isinstance(data, dict) else None
     if not isinstance(sent, list) or not 0 < len(sent) <= MOST:

@@ -53,7 +53,7 @@ class ClassService:
         return ids
 
     async def changes(self, epoch: str, since: int, timeout: float) -> dict[str, Plain]:
-        """Wait at most `timeout` s for a change since version `since`, and return the changes."""
+        """Wait for a change since the version `since`, for at most `timeout` s, and return the changes."""
         async with self._changed:
             try:
                 await asyncio.wait_for(self._changed.wait_for(lambda: self._is_new(epoch, since)), timeout)

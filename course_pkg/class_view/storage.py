@@ -13,7 +13,7 @@ from course_pkg.errors import ClassViewError
 FILE = "results.sqlite"
 VERSION = 1
 MOST = 10_000  # The database stores at most this number of results for one student.
-DAY = 86_400.0  # s
+DAY = 86_400.0  # The time is in s.
 TABLE = """
 CREATE TABLE results (
   number INTEGER PRIMARY KEY,
@@ -29,7 +29,7 @@ class TooMany(Exception):
 
 
 class Storage:
-    """The database in `folder`; a missing folder or database is created.
+    """The database in the folder `folder`; a missing folder or database is created.
 
     Raises ClassViewError if the database cannot be used. The methods raise sqlite3.Error if the disk cannot
     be written.
@@ -53,7 +53,9 @@ class Storage:
         self._database.close()
 
     def add(self, results: Iterable[Result]) -> list[Result]:
-        """Store the results; return the results that were not stored before. Raises TooMany.
+        """Store the results; return the results that were not stored before.
+
+        Raises TooMany if a student has sent too many results.
 
         If one result cannot be stored, none of the results is stored.
         """
@@ -89,7 +91,7 @@ class Storage:
         return deleted
 
     def delete_old(self, days: float) -> int:
-        """Delete the results of each student whose last result arrived more than `days` ago.
+        """Delete the results of each student whose last result arrived more than `days` days ago.
 
         Return the number of deleted results.
         """

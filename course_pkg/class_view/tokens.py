@@ -109,7 +109,10 @@ class Tokens:
 
 
 def write_privately(path: Path, text: str) -> None:
-    """Write a file that only this user can read, in a folder that only this user can open. Raises OSError."""
+    """Write a file that only this user can read, in a folder that only this user can open.
+
+    Raises OSError if the file cannot be written.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
     path.parent.chmod(0o700)
     write_atomically(path, text)

@@ -46,7 +46,7 @@ def caused(name: str) -> Iterator[Stage]:
 
 
 def select(*chosen: str) -> tuple[Fault, ...]:
-    """Return the faults whose name or group is in `chosen`, or all faults if `chosen` is empty.
+    """Return the faults whose name or group is in `chosen`; return all faults if `chosen` is empty.
 
     Raises UnknownFault if a name in `chosen` is neither a fault nor a group.
     """

@@ -24,7 +24,7 @@ class Fault:
     `look` describes the symptom in one or two words. The first word names a group of symptoms, and the second
     word a subgroup of very similar symptoms. Students choose between the correct diagnosis and wrong
     diagnoses, which belong to other faults with a similar `look`. `unlike` contains faults whose diagnoses
-    would also be correct, so they are not offered as wrong choices.
+    would also be correct, so these diagnoses are not offered as wrong choices.
     """
 
     name: str

@@ -93,7 +93,7 @@ class Program:
             self._began = time.monotonic()
 
     def watch(self, timeout: float) -> Seen:
-        """Wait until the program ends, or until `timeout` s after its start; return its result."""
+        """Wait until the program ends, or until its time limit `timeout` (s) is over; return its result."""
         wait_until(lambda: self.over, self._began + timeout - time.monotonic(), INTERVAL)
         took = time.monotonic() - self._began
         return Seen(self.shown, self.output(), took, self._status)

@@ -65,7 +65,7 @@ def kill_server(stage: Stage) -> None:
 
 
 def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str:
-    """Return the source code of a program that starts the node `visitor` and then runs `lines`."""
+    """Return the source code of a program that starts the node `visitor` and then runs the given lines."""
     return f'import rospy\n{imports}\n\nrospy.init_node("visitor")\n{lines}\n'
 
 

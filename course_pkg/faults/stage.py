@@ -123,7 +123,7 @@ class Stage:
             )
 
     def serve(self, code: str) -> Program:
-        """Run `code` as the server of /door, and wait until it responds.
+        """Run the program `code` as the server of /door, and wait until it responds.
 
         Raises NodeFailed if the server does not respond.
         """
@@ -179,7 +179,10 @@ class Stage:
         self._resources.ends.append(end)
 
     def await_that(self, condition: Callable[[], object], program: Program) -> None:
-        """Wait until `condition` is true; raises NodeFailed if `program` ends first, or after 10 s."""
+        """Wait up to 10 s until `condition` is true.
+
+        Raises NodeFailed after 10 s, or if `program` ends before the condition is true.
+        """
 
         def settled() -> str:
             # Read `over` first, because the program may make the condition true and then end.
@@ -202,7 +205,7 @@ class Stage:
         return {**local_environment(), **own, **more}
 
     def local(self, text: str) -> str:
-        """Return `text` with the real namespace and the real port.
+        """Return the text with the real namespace and the real port.
 
         In `text`, the stage's namespace replaces /lab, and the port of the stage's master replaces
         MASTER_PORT.

@@ -38,8 +38,8 @@ UNSEEN = re.compile(
 # ILLEGAL matches halves of surrogate pairs, and code points that are not characters.
 ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 BREAKS = re.compile("\r\n?|[\u2028\u2029]")
-# In a spreadsheet, a formula begins with a character in FORMULA; only some spreadsheets accept the last four
-# (full-width characters).
+# In a spreadsheet, a formula begins with a character in FORMULA; only some spreadsheets also accept the last
+# four of these, which are full-width characters.
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
@@ -47,7 +47,7 @@ MARKED = re.compile(r"-[0-9a-f]{10}")  # file_name() adds a suffix of this form 
 
 
 def text(value: object, limit: int = LONG) -> str:
-    """Return `value` as readable text, with at most `limit` characters and LINES lines."""
+    """Return the value as readable text, with at most `limit` characters and LINES lines."""
     whole = str(value)
     kept = BREAKS.sub("\n", ANSI.sub("", whole[: 4 * limit + 1000]))
     kept = ILLEGAL.sub("\ufffd", UNSEEN.sub("", kept))
@@ -59,7 +59,7 @@ def text(value: object, limit: int = LONG) -> str:
 
 
 def line(value: object, limit: int = SHORT) -> str:
-    """Return `value` as readable text on one line."""
+    """Return the value as readable text on one line."""
     return " ".join(text(value, limit).split())
 
 
@@ -70,18 +70,18 @@ def code(value: object, limit: int = CODE) -> str:
 
 
 def html(value: object, limit: int = LONG) -> str:
-    """Return `value` as text for an HTML page; characters such as < are escaped."""
+    """Return the value as text for an HTML page; characters such as < are escaped."""
     return escape(text(value, limit), quote=True)
 
 
 def cell(value: object, limit: int = SHORT) -> str:
-    """Return `value` as one line for a cell of a table; a spreadsheet does not read it as a formula."""
+    """Return the value as one line for a cell of a table; a spreadsheet does not read it as a formula."""
     kept = line(value, limit)
     return f"'{kept}" if kept.startswith(tuple(FORMULA)) else kept
 
 
 def record(fields: Mapping[str, Plain]) -> dict[str, Plain]:
-    """Return `fields` with cleaned keys and values; a list in the result has at most ITEMS items."""
+    """Return the fields with cleaned keys and values; a list in the result has at most ITEMS items."""
     return {line(key): _value(item) for key, item in fields.items()}
 
 
@@ -103,7 +103,7 @@ def identity(name: str) -> str:
 
 
 def file_name(name: str) -> str:
-    """Return a safe file name for `name`.
+    """Return a safe file name for the name `name`.
 
     The returned name is never the name of a device or a path to another folder.
 

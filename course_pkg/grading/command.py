@@ -67,7 +67,7 @@ class Options:
     grace_minutes: float = 0.0
     attempts: str = LAST
     late: Path | None = None
-    late_per_day: float | None = None  # percent
+    late_per_day: float | None = None  # The deduction is in percent.
     late_max_days: float | None = None
     roster: Path | None = None
     moodle_worksheet: Path | None = None
@@ -136,7 +136,7 @@ def grade(options: Options) -> int:
 def _print_end(
     out: Path, earlier: Earlier, graded: Sequence[Grade], rest: Sequence[Grade], took: float
 ) -> None:
-    """Print the changes since the last run, the earlier results that stay, and a summary line."""
+    """Print the changes since the last run, the earlier results that did not change, and a summary line."""
     lines = []
     if earlier.grades:
         found = changes(earlier.grades, [*graded, *rest])
@@ -212,7 +212,7 @@ def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> D
 def _dated(
     options: Options, found: Sequence[Submission], due: Deadlines, table: LateTable | None
 ) -> list[Submission]:
-    """Return the submissions to grade; each submission contains its late days."""
+    """Return the submissions to grade; each submission contains the number of days by which it is late."""
     zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
     asked = bool(options.deadlines or options.times)  # Without a deadline, times.csv is not read.

@@ -36,7 +36,7 @@ class Extras:
 
 
 def read_extras(folder: Path | None) -> Extras:
-    """Add the private parts in `folder` to the course; raise GradingError if a file is not valid."""
+    """Add the private parts in this folder to the course; raise GradingError if a file is not valid."""
     if folder is None:
         return Extras()
     if not folder.is_dir():

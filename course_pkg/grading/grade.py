@@ -107,7 +107,7 @@ class Grade:
     notes: tuple[str, ...] = ()  # Each note describes something unusual about the notebook.
     cells: tuple[CellOutcome, ...] = ()  # `cells` contains the result of each cell if nbval ran the notebook.
     sandboxed: bool = True  # `sandboxed` is False if the submission ran without a sandbox.
-    late: float = 0.0  # days
+    late: float = 0.0  # The value is a number of days.
     factor: float = 1.0  # The points of a late submission are multiplied by this factor.
     key: str = ""  # `key` is a digest of the submission, the solution and the checks.
     origin: str = ""
@@ -163,7 +163,7 @@ def _unreviewed(report: Report) -> Report:
 
 
 def grade_from(data: dict[str, Any]) -> Grade:
-    """Return the grade that the method `as_dict` converted into `data`."""
+    """Return the grade from `data`, the result of as_dict()."""
     known = {
         **data,
         "reports": tuple(report_from(each) for each in data["reports"]),

@@ -39,13 +39,13 @@ class Answers:
     problem: str = ""
 
     def in_packages(self, part: Part) -> bool:
-        """Return whether the packages contain all files that `part` needs."""
+        """Return whether the packages contain all files that the part needs."""
         asked = part.package_files
         here = all(self._has(name, paths) for name, paths in asked.items())
         return here and len(part.needs) == sum(map(len, asked.values())) > 0
 
     def files(self, part: Part) -> tuple[WorkFile, ...]:
-        """Return all files of the packages that `part` needs; their paths begin with src."""
+        """Return all files of the packages that the part needs; their paths begin with src."""
         named = [each for each in self.packages if each.name in part.package_files]
         return tuple(file.below(f"src/{each.name}") for each in named for file in each.files)
 
@@ -61,7 +61,7 @@ class Answers:
         return text[:LONGEST_CODE]
 
     def lacking(self, part: Part) -> list[str]:
-        """Return a sentence for each submitted package that lacks a file that `part` needs."""
+        """Return a sentence for each submitted package that lacks a file that the part needs."""
         named = {each.name for each in self.packages}
         return [
             f"The package {name} in this submission has no {' and no '.join(paths)}."

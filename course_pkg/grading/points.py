@@ -49,7 +49,7 @@ class PointsTable:
     parts: Mapping[str, Worth] = field(default_factory=dict)
 
     def weighed(self, grade: Grade) -> Grade:
-        """Return `grade` with the points of this table; parts that are not in the table do not change."""
+        """Return the grade with the points of this table; parts that are not in the table do not change."""
         return replace(grade, reports=tuple(map(self._weighed, grade.reports)))
 
     def _weighed(self, report: Report) -> Report:
@@ -64,7 +64,7 @@ class PointsTable:
 
 
 def read_points(path: Path | None) -> PointsTable:
-    """Return the points of all parts; points in the file at `path` replace the author's points.
+    """Return the points of all parts; points in the file at the path `path` replace the author's points.
 
     If there are private parts, call read_extras() before this function. Raises GradingError if the file is
     not valid; the message contains the position in the file and a correction.
@@ -140,7 +140,7 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _worth(part: Part, given: Any, path: Path | None) -> Worth:  # noqa: ANN401 -- any JSON value
-    """Convert `given`, the value of `part` in the file, into the points of the part and of its goals."""
+    """Convert the value `given` of a part in the file into the points of the part and of its goals."""
     if given == ALL_OR_NOTHING:
         return _all_or_nothing(part, part.points)
     if isinstance(given, dict):
@@ -193,7 +193,7 @@ def _with_points(part: Part, shares: Sequence[float]) -> tuple[Goal, ...]:
 
 
 def _points(value: Any, where: str, path: Path | None) -> float:  # noqa: ANN401 -- any JSON value
-    """Return `value` as a number of points.
+    """Return the value as a number of points.
 
     Raises GradingError if the value is not valid. The error message contains `where`, the place of the value
     in the file.

@@ -18,7 +18,7 @@ NOBODY = ""
 
 
 def handed_in(grade: Grade, submission: Submission) -> Grade:
-    """Return `grade` with the data of `submission`, such as the student's name."""
+    """Return the grade with the data of the submission, such as the student's name."""
     return replace(
         grade,
         student=submission.student,
@@ -48,19 +48,19 @@ class Store:
             ) from error
 
     def find(self, key: str, submission: Submission) -> Grade | None:
-        """Return the grade that is stored under `key`, with the data of `submission`, or None."""
+        """Return the grade that is stored under this key, with the data of the submission, or None."""
         grade = self.load(key)
         return handed_in(grade, submission) if grade else None
 
     def load(self, key: str) -> Grade | None:
-        """Return the grade that is stored under `key`, or None; this grade contains no student's name."""
+        """Return the grade that is stored under this key, or None; this grade contains no student's name."""
         try:
             return grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
         except (OSError, ValueError, KeyError, TypeError):
             return None
 
     def keep(self, grade: Grade) -> None:
-        """Store `grade` under its key, unless a part could not be examined.
+        """Store the grade under its key, unless a part could not be examined.
 
         If a part could not be examined, the next run examines the part again.
         """
@@ -77,7 +77,7 @@ class Store:
             ) from error
 
     def drop(self, key: str) -> None:
-        """Remove the grade that is stored under `key`; the next run then grades this notebook again."""
+        """Remove the grade that is stored under this key; the next run then grades this notebook again."""
         (self._folder / f"{key}.json").unlink(missing_ok=True)
 
     def forget(self) -> None:

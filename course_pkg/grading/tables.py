@@ -9,13 +9,13 @@ from pathlib import Path
 
 from course_pkg.errors import GradingError
 
-LARGEST = 1_000_000  # bytes
+LARGEST = 1_000_000  # The size is in bytes.
 SPREADSHEET = b"PK\x03\x04"  # Files in the formats .xlsx and .ods begin with these bytes.
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
-    """Return the content of the file at `path`.
+    """Return the content of the file at the path `path`.
 
     `what` describes the file in error messages, such as "table of late days".
 
@@ -38,10 +38,10 @@ def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
 
 
 def table_rows(path: Path, what: str) -> list[list[str]]:
-    """Return the rows of the CSV file at `path`; the separator is a comma, a semicolon or a tab.
+    """Return the rows of the CSV file at the path `path`; the separator is a comma, a semicolon or a tab.
 
-    Raises GradingError in the same cases as `table_bytes`, and if the contents are not CSV in UTF-8, or in
-    UTF-16 with a byte order mark.
+    Raises GradingError in the same cases as table_bytes(), and also if the contents are not CSV in UTF-8, or
+    in UTF-16 with a byte order mark.
     """
     content = table_bytes(path, what)
     try:

@@ -45,7 +45,7 @@ class Collected:
     notebooks: int = 0
     packages: int = 0
     students: int = 0
-    nothing: list[str] = field(default_factory=list)  # students
+    nothing: list[str] = field(default_factory=list)  # These are the names of students.
     problems: list[str] = field(default_factory=list)
     set_back: list[str] = field(default_factory=list)
 

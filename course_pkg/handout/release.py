@@ -96,8 +96,8 @@ def _how_to_hand_out(folder: ReleaseFolder, options: Options, repository: str, l
 def pull_link(hub: str, repository: str, branch: str, notebook: str) -> str:
     """Return the link with which nbgitpuller copies the edition into a student's account on a JupyterHub.
 
-    The link pulls `branch` of `repository`, and opens `notebook`, which is a path in the repository. `hub` is
-    the address of the JupyterHub. The format is documented at
+    The link pulls the branch `branch` of the repository, and opens the notebook at the path `notebook` in the
+    repository. `hub` is the address of the JupyterHub. The format is documented at
     https://nbgitpuller.readthedocs.io/en/latest/link.html. Raises HandoutError if an address begins neither
     with https:// nor with http://.
     """

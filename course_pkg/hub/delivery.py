@@ -14,7 +14,7 @@ GIT_SETTINGS = "gitconfig"  # This file is in the folder that contains the repos
 
 
 def write_repository(places: Places, repository: Path) -> bool:
-    """Commit the checkout's notebooks and figures to `repository`; return whether the repository changed.
+    """Commit the checkout's notebooks and figures to the repository; return whether the repository changed.
 
     Every user can read the repository. Raises HandoutError if git fails.
     """

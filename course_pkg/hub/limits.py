@@ -1,4 +1,4 @@
-"""Limits for all processes of one student: a control group (cgroup v2) if possible, otherwise rlimits."""
+"""Limits for all processes of one student: a control group (cgroup v2) if possible, or else rlimits."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MIB = 1 << 20
 
 
 class Limits(NamedTuple):
-    """What one student may use: `memory` is in MiB; `processes` is the number of processes and threads."""
+    """The limits of one student: `memory` is in MiB; `processes` is the number of processes and threads."""
 
     memory: int
     processes: int

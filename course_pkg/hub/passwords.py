@@ -18,7 +18,8 @@ from pathlib import Path
 from course_pkg.files import write_atomically
 from course_pkg.setup.stamps import locked
 
-LETTERS = "abcdefghjkmnpqrstuvwxyz23456789"  # without letters and digits that look alike
+# The characters of a password, without letters and digits that look alike.
+LETTERS = "abcdefghjkmnpqrstuvwxyz23456789"
 GROUPS, LENGTH = 3, 4  # 31 ** 12 possible passwords, such as k3fp-wx7d-m9qa
 SCRYPT = {"n": 2**14, "r": 8, "p": 1}  # parameters of scrypt (RFC 7914); one hash takes about 50 ms
 
@@ -40,7 +41,7 @@ class Passwords:
         return issued
 
     def use(self, user: str, password: str) -> bool:
-        """Return whether this is the unused password of `user`; if it is, the password becomes invalid."""
+        """Return whether this is the user's unused password; if it is, the password becomes invalid."""
         with self._locked() as known:
             salt, _, expected = known.get(user, "").partition(":")
             given = _hash(password.strip().lower(), bytes.fromhex(salt))
@@ -78,7 +79,7 @@ class _Record:
 
 
 def write_private(path: Path, text: str) -> None:
-    """Write `text` to `path`, completely or not at all; only the owner can read the file."""
+    """Write the text to a file, completely or not at all; only the owner can read the file."""
     before = os.umask(0o077)
     try:
         write_atomically(path, text)
@@ -87,7 +88,7 @@ def write_private(path: Path, text: str) -> None:
 
 
 def add_to_table(path: Path, issued: dict[str, str]) -> None:
-    """Add rows to a CSV file with the columns username and password, which only its owner can read."""
+    """Add rows to a CSV file with the columns username and password; only the file's owner can read it."""
     rows: dict[str, str] = {}
     if path.exists():
         with path.open(newline="") as file:

@@ -29,7 +29,7 @@ class Settings:
     students: tuple[str, ...]
     teacher: str
     homes: str  # the folder that contains the home folders if the students have no accounts, otherwise ""
-    memory: int  # MiB
+    memory: int  # The memory is in MiB.
     processes: int
     class_port: int  # the port of the class view, or 0 without a class view
     cert: str = ""

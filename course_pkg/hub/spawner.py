@@ -42,7 +42,7 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
         return Path(self.homes, name) if self.homes else Path(pwd.getpwnam(name).pw_dir)
 
     def user_env(self, env: dict[str, str]) -> dict[str, str]:
-        """Return `env` with the variables that a login sets."""
+        """Return the dict `env` with the variables that a login sets."""
         return {**env, "USER": self.user.name, "HOME": str(self.home), "SHELL": "/bin/bash"}
 
     async def start(self) -> object:

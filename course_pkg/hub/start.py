@@ -32,7 +32,7 @@ from course_pkg.setup.network import network_problem
 from course_pkg.state import locked
 
 PORTS = (*range(8000, 8020), 0)  # the ports to try; 0 means any free port
-ORDINARY = "nobody"  # an account that exists on each system, with the rights of an ordinary user
+ORDINARY = "nobody"  # Each system has an account with this name; the account has no special rights.
 GRACE = 20.0  # The hub has to end the students' servers within this time in s.
 
 
@@ -47,7 +47,7 @@ class Options:
     key: Path | None
     teacher: str
     without_accounts: Path | None
-    memory: int  # MiB
+    memory: int  # The memory is in MiB.
     processes: int
     data: Path | None = None
 
@@ -117,7 +117,10 @@ def serve_hub(options: Options) -> int:
 
 
 def renew_password(user: str, data: Path | None) -> int:
-    """Print a new one-time password for `user`, which a running hub accepts at once, and return 0."""
+    """Print a new one-time password, which a running hub accepts at once, and return 0.
+
+    `user` is the name of the student.
+    """
     check_names([user])
     state = _private(data_folder(Places.of(), data))
     issued = Passwords(state / "passwords.json").issue([user], again=True)

@@ -1,4 +1,4 @@
-"""What the hub needs and pip does not provide: the proxy program, and a certificate for a test of the hub."""
+"""The tools that the hub needs and pip does not provide: the proxy program, and a test certificate."""
 
 from __future__ import annotations
 
@@ -39,7 +39,9 @@ def installed_proxy(places: Places) -> Path:
 
 
 def self_signed(folder: Path, address: str) -> tuple[Path, Path]:
-    """Return a certificate for `address` and its key, which openssl writes to `folder` if they are missing.
+    """Return a certificate for the address, and its key; openssl creates them if they are missing.
+
+    Both files are in the folder `folder`.
 
     Raises HubError if openssl is missing or fails.
     """

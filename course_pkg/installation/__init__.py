@@ -2,8 +2,9 @@
 
 A prefix, such as /opt/ros-services-course, contains:
 
-- versions/ID: one version, complete as soon as it contains installation.json, and then never changed:
-  `course` (the students' edition), `env` (virtual environment and catkin workspace), `completion.bash`
+- versions/ID: one version. A version is complete as soon as it contains installation.json, and it never
+  changes after that. It contains `course` (the students' edition), `env` (virtual environment and catkin
+  workspace), `completion.bash`
 - current: a link to the version that `course` on the PATH starts
 
 `course_pkg/installed.py` decides where a user's own files are.

@@ -92,7 +92,7 @@ def install_script(names: Sequence[str]) -> str:
 
 
 def package_index(folder: Path) -> str:
-    """Return apt's index of the .deb files in `folder`; see the Debian wiki, "DebianRepository/Format"."""
+    """Return apt's index of the .deb files in this folder; see the Debian wiki, "DebianRepository/Format"."""
     return "\n".join(_entry(path) for path in sorted(folder.glob("*.deb")))
 
 
@@ -121,7 +121,7 @@ def _download_wheels(folder: Path) -> None:
 
 
 def _download_packages(names: Sequence[str], folder: Path) -> None:
-    """Download `names` and all packages that they need on a system on which no package is installed."""
+    """Download the packages and all packages that they need on a system without any installed package."""
     (folder / "partial").mkdir(parents=True)
     with tempfile.NamedTemporaryFile(prefix="course-status-") as empty:
         options = {
@@ -141,7 +141,7 @@ def _download_packages(names: Sequence[str], folder: Path) -> None:
 
 
 def _output(command: Sequence[str]) -> str:
-    """Run `command` and return its output; if it fails, raise SetupError with the end of its messages."""
+    """Run a command and return its output; if it fails, raise SetupError with the end of its messages."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     if done.returncode:
         end = "\n".join(f"  {line}" for line in done.stderr.splitlines()[-8:])

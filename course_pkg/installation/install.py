@@ -59,7 +59,7 @@ def install(path: Path | None, bin_folder: Path | None) -> int:
 
 
 def _version_id(edition: Path) -> str:
-    """Return a name that depends on the files of `edition` and on the interpreter."""
+    """Return a name that depends on the edition's files and on the interpreter."""
     number = ElementTree.parse(edition / "package.xml").findtext("version")  # noqa: S314 -- our own file
     contents = [each for name in edition_files(edition) for each in (name, (edition / name).read_bytes())]
     return f"{number}-{digest([*contents, base_python(), sys.version])[:8]}"

@@ -13,7 +13,8 @@ from course_pkg.files import write_atomically
 from course_pkg.installed import RECORD
 
 DEFAULT = Path("/opt/ros-services-course")
-OURS = ".course-installation.json"  # marks a prefix that `course install` made, and stores its `bin`
+# This file marks a prefix that `course install` made, and stores the path of its `bin`.
+OURS = ".course-installation.json"
 COMPLETION = "completion.bash"
 
 
@@ -70,14 +71,14 @@ class Prefix:
         return sorted(path.parent for path in self.versions.glob(f"*/{RECORD}"))
 
     def switch(self, version: Path) -> None:
-        """Make `version` the current version, and create missing links."""
+        """Make the version `version` the current version, and create missing links."""
         _link(self.current, version.relative_to(self.path))
         for link, target in self._links.items():
             link.parent.mkdir(parents=True, exist_ok=True)
             _link(link, target)
 
     def remove_unused(self, kept: set[Path]) -> list[Path]:
-        """Remove all versions that are not in `kept` and that no process uses.
+        """Remove all versions that no process uses, except the versions in `kept`.
 
         Return the versions that a process still uses.
         """
@@ -110,7 +111,7 @@ class Prefix:
 
 
 def users_of(folder: Path) -> Iterator[int]:
-    """Yield the ids of the processes that have `folder` in their command line or environment.
+    """Yield the ids of the processes that have the path of the folder in their command line or environment.
 
     The environment of every program of the course contains the path of the folder. Only root can read the
     environments of other users' processes.

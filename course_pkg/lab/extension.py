@@ -148,7 +148,7 @@ def _send_at_once(server: Server) -> None:
 
 
 def undelayed(stock: type[Connection]) -> type[Connection]:
-    """Return a subclass of `stock` that sets TCP_NODELAY before it connects."""
+    """Return a subclass of the class `stock` that sets TCP_NODELAY before it connects."""
 
     async def connect(self: Connection) -> None:
         try:
@@ -176,7 +176,7 @@ class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base
         return str(Places.of().cache / "jupyter" / "checkpoints")
 
     def checkpoint_path(self, checkpoint_id: str, path: str) -> str:
-        """Return the file for a checkpoint of the notebook at `path`; create the file's folder.
+        """Return the file for a checkpoint of the notebook at the path `path`; create the file's folder.
 
         Raises tornado.web.HTTPError if `path` is outside the server's folder.
         """

@@ -31,7 +31,7 @@ PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same port
 
 
 def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, shared: bool = False) -> int:
-    """Run JupyterLab until Ctrl-C or SIGTERM; open the notebook at `asked`, or the first chapter.
+    """Run JupyterLab until Ctrl-C or SIGTERM; open the notebook at the path `asked`, or the first chapter.
 
     The kernels and terminals are on a graph in a private network, or in the network of this computer if
     `shared` is true. The server is always in the network of this computer.
@@ -64,7 +64,9 @@ def _serve(
     which: Which,
     retries: int | None = None,
 ) -> int:
-    """Run JupyterLab on `port`, or on one of the next `retries` ports, until a signal arrives.
+    """Run JupyterLab on the port `port`, or on one of the next ports, until a signal arrives.
+
+    `retries` is the number of next ports to try.
 
     If `retries` is None, JupyterLab uses its default number of retries. Raises PortTaken if another program
     took the port during the start.
@@ -100,7 +102,7 @@ def _serve(
 
 
 def server_port(ip: str, candidates: Sequence[int]) -> int:
-    """Return the first free port of `candidates` at `ip`; raises PortBusy if no port is free."""
+    """Return the first port in `candidates` that is free at `ip`; raises PortBusy if no port is free."""
     try:
         return free_port(ip, candidates)
     except OSError as error:

@@ -35,7 +35,7 @@ def notebook_to_open(root: Path, asked: str | None) -> str:
 def write_workspace(folder: Path, notebook: str) -> None:
     """Write the workspace that JupyterLab opens.
 
-    The workspace has one tab for `notebook`, and no tabs of an earlier start.
+    The workspace has one tab for this notebook, and no tabs of an earlier start.
 
     If JupyterLab restored earlier tabs, it would start a kernel for each of them before the page is usable. A
     page address with the notebook and `?reset` would have the same effect, but JupyterLab reads the address

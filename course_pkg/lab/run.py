@@ -26,7 +26,7 @@ AWAITED = {signal.SIGCHLD, signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
 
 
 def run_command(command: Sequence[str], which: Which = Which.RUNNING) -> int:
-    """Run `command` on a graph, end its background processes, and return its exit status.
+    """Run the command on a graph, end its background processes, and return its exit status.
 
     The exit status is 128 + n if signal n ended the command. Raises GraphError if the graph or the command
     cannot be started.
@@ -46,7 +46,7 @@ def run_command(command: Sequence[str], which: Which = Which.RUNNING) -> int:
 
 
 def _with_plugins(command: Sequence[str]) -> list[str]:
-    """Return `command`; if it runs notebooks with nbval, add the course's pytest plug-ins."""
+    """Return the command; if it runs notebooks with nbval, add the course's pytest plug-ins."""
     given = list(command)
     runs_pytest = Path(given[0]).name in ("pytest", "py.test") or given[1:3] == ["-m", "pytest"]
     if not runs_pytest or not any(word.startswith("--nbval") for word in given):
@@ -70,7 +70,7 @@ def _signals_held_back() -> Iterator[None]:
 
 
 def _wait(process: SupervisedProcess) -> int:
-    """Wait for the end of `process`; forward each signal that the terminal does not send to `process`."""
+    """Wait for the end of the process; forward each signal that the terminal has not already sent to it."""
     while (status := process.returncode) is None:
         received = signal.sigwaitinfo(AWAITED)
         # A signal that comes from the terminal has pid 0. The terminal sends the same signal to the command,

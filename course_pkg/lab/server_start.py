@@ -70,7 +70,7 @@ def await_server(server: SupervisedProcess, scratch: Path) -> Address:
 
 
 def _is_at(address: Address) -> bool:
-    """Return whether the server at `address` accepts the token; the server of another user refuses it."""
+    """Return whether the server at this address accepts the token; the server of another user refuses it."""
     with closing(HTTPConnection(address.base.netloc, timeout=READY)) as server:
         server.request("GET", f"{address.base.path}api/status", headers=address.headers)
         return server.getresponse().status == OK

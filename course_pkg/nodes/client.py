@@ -1,4 +1,4 @@
-"""The node `client`: it calls `getGeometry` with the sides of a box, and prints the response."""
+"""The node `client`: it calls the service `getGeometry` with the sides of a box, and prints the response."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """The node `polled_camera`: returns one picture of the shop for each call.
 
-The node offers the service `request_image` (PolledImage). The node subscribes to `counter`, the topic with
-the customers that `shop_camera` sees. If no messages arrive, the pictures show a random number of customers.
-If `~stream` is above 0, the node also publishes this number of pictures per second on `image`
-(sensor_msgs/Image).
+The node offers the service `request_image` (PolledImage). The node subscribes to the topic `counter`, which
+contains the customers that the node `shop_camera` sees. If no messages arrive, the pictures show a random
+number of customers. If `~stream` is above 0, the node also publishes this number of pictures per second on
+the topic `image` (sensor_msgs/Image).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from course_pkg.srv import PolledImage, PolledImageRequest, PolledImageResponse
 
 WIDTH, HEIGHT = 320, 240  # If the request contains 0, this size in pixels is used.
 LEAST, MOST = 16, 1280  # A width or height must be in this range of pixels.
-# The last message on `counter` is used for this time in s.
+# The last message on the topic `counter` is used for this time in s.
 SILENCE = 1.0
 UNCHANGED = 4.0  # The random number of customers does not change for this time in s.
 
@@ -51,7 +51,7 @@ class PolledCamera:
         return PolledImageResponse(picture(width, height, customers), customers)
 
     def stream(self, rate: float) -> None:
-        """Publish `rate` pictures per second until the node is shut down."""
+        """Publish pictures until the node is shut down; `rate` is the number of pictures per second."""
         publisher = rospy.Publisher("image", Image, queue_size=2)
         clock = rospy.Rate(rate)
         while not rospy.is_shutdown():

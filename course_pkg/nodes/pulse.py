@@ -11,7 +11,7 @@ from course_pkg.ros.node.program import number_parameter, start_node, undisturbe
 
 
 def main() -> None:
-    """Publish `~rate` (default 2) numbers per second until the node is shut down."""
+    """Publish numbers until the node is shut down; ~rate (default 2) is the number of messages per second."""
     if not start_node("pulse"):
         return
     with undisturbed():

@@ -15,7 +15,7 @@ RATE = 20.0  # The robot publishes at this rate in Hz.
 
 
 class Joint(NamedTuple):
-    """A joint that swings between `middle - reach` and `middle + reach` rad, once in `period` s."""
+    """A joint that swings between `middle - reach` and `middle + reach` (rad); `period` is in s."""
 
     name: str
     middle: float
@@ -40,7 +40,7 @@ ARM = (
 
 
 def main() -> None:
-    """Publish the joint state `~rate` (default 20) times per second until the node is shut down."""
+    """Publish the joint state until the node is shut down; the parameter ~rate (default 20) is in Hz."""
     if not start_node("robot"):
         return
     rate = rospy.Rate(number_parameter("~rate", RATE, 0.1, 1000.0))

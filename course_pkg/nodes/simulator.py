@@ -1,7 +1,7 @@
 """The node `simulator` publishes the mirror image of the robot, and draws pictures at the same time.
 
-For each message on `joint_states`, the node immediately publishes the mirror image on `mirrored_joints`. The
-node also publishes the number of finished pictures on `~pictures`.
+For each message on the topic `joint_states`, the node immediately publishes the mirror image on the topic
+`mirrored_joints`. The node also publishes the number of finished pictures on `~pictures`.
 """
 
 from __future__ import annotations
@@ -41,7 +41,10 @@ class Simulator:
             rospy.logwarn_throttle(QUIET, "Ignored an invalid joint state: %s", error)
 
     def draw(self, seconds: float) -> None:
-        """Draw one picture every `seconds` s until the node is shut down."""
+        """Draw one picture after another until the node is shut down.
+
+        `seconds` is the time in s for each picture.
+        """
         done = 0
         while not self._over.wait(seconds):
             done += 1
@@ -49,7 +52,10 @@ class Simulator:
 
 
 def main() -> None:
-    """Mirror the robot, and draw a picture every `~drawing` (default 0.4) s, until the node is shut down."""
+    """Mirror the robot, and draw pictures, until the node is shut down.
+
+    The parameter ~drawing (default 0.4) is the time in s for each picture.
+    """
     if not start_node("simulator"):
         return
     seconds = number_parameter("~drawing", DRAWING, 0.01, 60.0)

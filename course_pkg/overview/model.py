@@ -134,7 +134,7 @@ class Progress:
 
     @property
     def right(self) -> tuple[int, int]:
-        """The two numbers of ChapterProgress.right, each added up over all chapters."""
+        """The numbers of correct predictions and of compared predictions in all chapters."""
         return _sum([each.right for each in self.chapters])
 
     @property

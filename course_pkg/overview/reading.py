@@ -21,7 +21,7 @@ PATHS = Path(__file__).parents[1] / "chapters" / "paths.json"
 
 
 def read_progress(chapters: Sequence[str] = ()) -> Progress:
-    """Return the progress in `chapters`, such as ["05"], or in all chapters.
+    """Return the progress in the given chapters, such as ["05"], or in all chapters.
 
     An unreadable record is left out, and `problems` contains a message about it. Raises UnknownCheck if there
     is no such chapter.

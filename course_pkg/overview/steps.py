@@ -19,7 +19,7 @@ class Step:
 
 
 def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
-    """Return the next steps in `chapter`, or in the chapter in which the student worked last.
+    """Return the next steps in the chapter `chapter`, or in the chapter in which the student worked last.
 
     If the chapter is complete, each learning path can have a different next step. The result has at least one
     step.
@@ -46,7 +46,10 @@ def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
 def _following(
     progress: Progress, current: ChapterProgress, by_number: dict[str, ChapterProgress]
 ) -> dict[str, list[str]]:
-    """Return a dict from the number of each next incomplete chapter to the names of its learning paths."""
+    """Return a dict; each key is the number of an incomplete chapter that a learning path contains next.
+
+    The values are the names of these learning paths.
+    """
     found: dict[str, list[str]] = {}
     for path in progress.paths:
         chapters = [by_number[number] for number in path.chapters if number in by_number]

@@ -13,7 +13,7 @@ LEGEND = "✓ passed   ✗ checked, not passed yet   · not checked"
 
 
 def headline(progress: Progress, chapter: str = "") -> str:
-    """Return one line with the totals of all chapters, or of `chapter`."""
+    """Return one line with the totals of all chapters, or of the chapter `chapter`."""
     counted = f"{of(progress.passed)} parts passed, {of(progress.points)} points"
     answered = ((progress.right, "predictions right"), (progress.chosen, "choices right"))
     counted += "".join(f", {of(pair)} {what}" for pair, what in answered if pair[1])
@@ -87,7 +87,7 @@ def _end(progress: Progress) -> Iterator[str]:
 
 
 def _wrapped(label: str, text: str) -> list[str]:
-    """Return `label` and `text` in lines of at most WIDTH characters.
+    """Return the label and the text in lines of at most WIDTH characters.
 
     All lines after the first line are indented.
     """

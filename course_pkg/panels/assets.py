@@ -18,7 +18,9 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class)\b)", re.MU
 
 @cache
 def module(path: Path, frame: Path | None = None) -> str:
-    """Return the code of the ES module at `path`, together with the code of the modules that it imports.
+    """Return the code of an ES module, together with the code of the modules that it imports.
+
+    `path` is the path of the module.
 
     `frame` is the path of an ES module that defines the JavaScript function `framed`. If `frame` is given,
     the result exports `framed(render)` instead of `render`.

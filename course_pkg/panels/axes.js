@@ -9,10 +9,9 @@ export function reading({ low, high }, value) {
   return decimals > 6 || high - low >= 1e9 ? power(value, 4) : String(Number(value.toFixed(decimals)));
 }
 
-/**
-  * Returns an axis for values from `low` to `high` with at most `most` steps. A `snug` axis ends exactly at `low` and
- * `high`. Any other axis is extended to its next ticks. It begins at 0 if 0 is near enough, so that heights can be
- * compared.
+/** Returns an axis for a range of values; `most` is the maximum number of steps. If `snug` is true, the axis
+ * ends exactly at the ends of the range. Otherwise, the axis is extended to the next ticks, and begins at 0
+ * if 0 is near enough, so that a reader can compare heights.
  * @param {number} low @param {number} high @param {number} most @param {boolean} [snug] @returns {Axis}
  */
 export function axis(low, high, most, snug = false) {
@@ -24,7 +23,8 @@ export function axis(low, high, most, snug = false) {
     [from, to] = [from - room, to + room];
   }
   const step = niceStep(to - from, most);
-  const round = (/** @type {number} */ value) => Math.round(value * 1e6) / 1e6; // 0.3 / 0.1 gives 2.9999999999999996 instead of 3
+  // In JavaScript, 0.3 / 0.1 gives 2.9999999999999996 instead of 3.
+  const round = (/** @type {number} */ value) => Math.round(value * 1e6) / 1e6;
   const [first, last] = snug ? [Math.ceil(round(from / step)), Math.floor(round(to / step))] : [Math.floor(round(from / step)), Math.ceil(round(to / step))];
   const ticks = Array.from({ length: last - first + 1 }, (_, index) => (first + index) * step);
   return { low: snug ? from : first * step, high: snug ? to : last * step, ticks: ticks.map((value) => ({ value, text: tickText(value, step, ticks) })) };
@@ -35,7 +35,8 @@ export function place({ low, high }, value) {
   return (value - low) / (high - low);
 }
 
-/** Returns the smallest step (1, 2 or 5 times a power of ten) for which `range` has at most `most` steps.
+/** Returns the smallest step (1, 2 or 5 times a power of ten) that divides the range into at most `most`
+ * steps.
  * @param {number} range @param {number} most */
 function niceStep(range, most) {
   const ten = 10 ** Math.floor(Math.log10(range / most));

@@ -43,8 +43,8 @@ export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** Runs `work`, which may move parts of the page, as soon as no mouse button is pressed on the element. If a button
- * moved away during a press, the browser would not report the click.
+/** Runs a function, which may move parts of the page, as soon as no mouse button is pressed on the element.
+ * If a button moved away during a press, the browser would not report the click.
  * @param {Element} element @param {() => void} work */
 export function afterPress(element, work) {
   if (!element.matches(":root:active *")) return work();
@@ -56,8 +56,8 @@ export function prose(text) {
   return text.split("`").map((part, index) => (index % 2 ? h("code", { text: part }) : part));
 }
 
-/** Returns a number as text: rounded to `digits` significant digits or to a whole number, and without an exponent
- * between 0.0001 and a million.
+/** Returns a number as text: rounded to the given number of significant digits or to a whole number, and
+ * without an exponent between 0.0001 and a million.
  * @param {number} value @param {number} [digits] @returns {string} */
 export function numeral(value, digits = 4) {
   const size = Math.abs(value);
@@ -76,7 +76,8 @@ export function same(one, other) {
   return JSON.stringify(one) === JSON.stringify(other);
 }
 
-/** Returns a button that copies the text from `read` and then shows "Copied". @param {string} label @param {() =>
+/** Returns a button that copies the text that `read` returns, and then shows "Copied".
+ * @param {string} label @param {() =>
  * string} read
  * @returns {HTMLElement} */
 export function copyButton(label, read) {
@@ -136,8 +137,8 @@ export function kernelLink(model, signal, changed) {
   let timer = 0;
   let heart = 0;
   let open = true;
-  // JupyterLab sends no event when a kernel is shut down, but after that no message can be sent. A busy kernel only
-  // answers late. So here the kernel counts as lost only if a message cannot be sent.
+  // JupyterLab sends no event when a kernel is shut down, but after a shutdown no message can be sent. A busy
+  // kernel answers late. So this code treats the kernel as lost only if a message cannot be sent.
   const beat = () => {
     if (!send(model, { kind: "here" })) lose();
   };

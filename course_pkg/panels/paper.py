@@ -22,13 +22,13 @@ GOOD, ERROR, ERROR_WASH = "#18713a", "#ae1f1f", "#fdefee"
 SANS = "Arial, Helvetica, 'Liberation Sans', sans-serif"
 MONO = "Menlo, Consolas, 'DejaVu Sans Mono', monospace"
 
-WIDTH = 760.0  # px
+WIDTH = 760.0  # The width is in px.
 EDGES = 16.0  # distance in px between the border of the picture and its content
 SIZE, SMALL = 13.0, 12.0  # font sizes in px
 LEADING = 1.5  # height of a line divided by the font size
 MONO_LETTER = 0.61  # width of a letter of the monospaced font divided by the font size
-# Widths of letters divided by the font size. The font is DejaVu Sans, because a viewer of the picture may use
-# this font, and the other possible fonts are narrower.
+# This dict contains the widths of letters, divided by the font size. The font is DejaVu Sans, because a
+# viewer of the picture may use this font, and the other possible fonts are narrower.
 WIDTHS = {
     **dict.fromkeys("iljI'|.,:; ", 0.32),
     **dict.fromkeys('frt()[]/`-!"', 0.41),
@@ -222,7 +222,7 @@ def prose(text: str) -> str:
 
 
 def cut(text: str, style: Style, width: float) -> str:
-    """Return the text; if it is wider than `width` px, shorten the text, and end it with an ellipsis."""
+    """Return the text; if it is wider than the width (px), shorten the text, and end it with an ellipsis."""
     if style.width(text) <= width:
         return text
     while text and style.width(text + "…") > width:
@@ -231,7 +231,7 @@ def cut(text: str, style: Style, width: float) -> str:
 
 
 def wrapped(text: str, style: Style, width: float) -> list[str]:
-    """Split a text into lines of at most `width` px.
+    """Split a text into lines; `width` is the maximum width of a line in px.
 
     Each line has the same indentation as the paragraph in `text` to which the line belongs.
     """

@@ -10,11 +10,14 @@ Value = TypeVar("Value")
 
 
 class Poller(Generic[Value]):
-    """Calls `read` every `every` s on a separate thread, from start() to stop().
+    """Calls the function `read` repeatedly on a separate thread, from start() to stop().
 
-    The poller calls `changed` with each value that differs from the previous value. If `read` raises an
-    error, the poller calls `failed` with this error, unless the previous call of `read` raised an error with
-    the same text. After start(), `read`, `changed` and `failed` run on the separate thread.
+    `every` is the time in s between two calls.
+
+    The poller calls the function `changed` with each value that differs from the previous value. If `read`
+    raises an error, the poller calls the function `failed` with this error, unless the previous call of
+    `read` raised an error with the same text. After start(), `read`, `changed` and `failed` run on the
+    separate thread.
     """
 
     def __init__(
@@ -39,7 +42,7 @@ class Poller(Generic[Value]):
             thread.start()
 
     def stop(self) -> None:
-        """Tell the thread to stop; the thread may call `read` once more.
+        """Tell the thread to stop; the thread may call the function `read` once more.
 
         The method does not wait until the thread ends, because `read` may need a lock that the caller has
         acquired.
@@ -49,7 +52,7 @@ class Poller(Generic[Value]):
             self._stop = None
 
     def once(self) -> None:
-        """Call `read` once on the calling thread, and report the value."""
+        """Call the function `read` once on the calling thread, and report the value."""
         self._read_and_report(None, threading.Event())
 
     def _poll(self, stop: threading.Event) -> None:

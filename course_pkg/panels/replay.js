@@ -3,7 +3,7 @@ import { freshId, h, say, setAttribute } from "./kit.js";
 
 const NEAR = 50; // If Play is pressed less than this many ms before the end, the recording starts again.
 const ARROW = 100; // An arrow key moves the slider by this many ms.
-const CALM = 1000; // If the reader's system asks for less motion, a picture is drawn every CALM ms.
+const CALM = 1000; // If the reader's system asks for less motion, this code draws a picture every CALM ms.
 
 /** Calls `told(visible)` now and after each change of the element's visibility.
  * @param {Element} element @param {AbortSignal} signal @param {(visible: boolean) => void} told */
@@ -47,7 +47,7 @@ export class Replay {
     const [time, length] = [this.time, this.length].map((each) => (each / 1000).toFixed(1));
     const step = this.length < 10 * ARROW ? 1 : ARROW; // A slider stops only at steps, so a short recording has smaller steps.
     setAttribute(this.scrub, "step", step);
-    setAttribute(this.scrub, "max", step * Math.ceil(this.length / step)); // Without this, the slider could not reach the end.
+    setAttribute(this.scrub, "max", step * Math.ceil(this.length / step)); // Without this rounding, the slider could not reach the end.
     this.scrub.value = String(this.time);
     say(this.moment, `${time} of ${length} s`);
     setAttribute(this.scrub, "aria-valuetext", `${time} of ${length} seconds`);
@@ -61,7 +61,9 @@ export class Replay {
     this.frame = 0;
   }
 
-  /** The clock stops while the recording is not visible, and continues at the same time. @param {boolean} visible */
+  /** The clock stops while the recording is not visible, and then continues from the same time of the
+   * recording.
+   * @param {boolean} visible */
   see(visible) {
     this.visible = visible;
     this.#run();

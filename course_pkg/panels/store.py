@@ -55,7 +55,7 @@ class Store(Generic[Record]):
             ) from error
 
     def _checked(self, record: Record) -> Record:
-        """Return `record` if its fields have the declared types. Otherwise, raise TypeError."""
+        """Return the record if its fields have the declared types. Otherwise, raise TypeError."""
         for each in fields(record):
             if type(getattr(record, each.name)).__name__ != str(each.type).partition("[")[0]:
                 raise TypeError(f"{each.name} of {record.key} is not of the type {each.type}")

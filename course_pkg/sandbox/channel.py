@@ -37,7 +37,7 @@ def pair() -> tuple[socket.socket, socket.socket]:
 
 
 def send(sock: socket.socket, message: Message, descriptors: Sequence[int] = ()) -> None:
-    """Send `message` together with open file descriptors."""
+    """Send a message together with open file descriptors."""
     socket.send_fds(sock, [json.dumps(message).encode()], descriptors)
 
 
@@ -55,7 +55,7 @@ def receive(sock: socket.socket, timeout: float | None = None) -> tuple[Message,
 
 
 def fork(work: Callable[[], None]) -> int:
-    """Run `work` in a forked process without standard input and output, and return the id of this process."""
+    """Run a function in a forked process without standard input and output; return the process id."""
     if pid := os.fork():
         return pid
     try:

@@ -32,7 +32,7 @@ def check_part(
     kernel: int,
     isolation: Isolation,
 ) -> NoReturn:
-    """Run the check of `job` and write its record to the file `out`, as one JSON object.
+    """Run the check of the job, and write its record to the file `out`, as one JSON object.
 
     `kernel` is the id of the process in which the answer runs.
     """

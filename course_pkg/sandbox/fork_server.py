@@ -18,7 +18,7 @@ CLEAR_TIMEOUT = 60.0  # All processes of a part have to end within this time in 
 
 
 def serve_forks(sock: socket.socket, private: str, *, isolation: Isolation) -> NoReturn:
-    """Fork a supervisor for each job from `sock`; report the end of the supervisor and its descendants."""
+    """Fork a supervisor for each job from the socket; report the end of the supervisor's processes."""
     namespaces.adopt_orphans()
     if isolation.namespaces:
         _hide_checks(private)

@@ -35,11 +35,14 @@ class WorkFile:
         return base64.b64decode(self.content)
 
     def below(self, folder: str) -> WorkFile:
-        """Return a copy of this object whose path begins with `folder`."""
+        """Return a copy of this object whose path begins with the folder `folder`."""
         return replace(self, path=f"{folder}/{self.path}")
 
     def write(self, folder: Path) -> None:
-        """Write the file into `folder`; raises ValueError if its path is invalid or leads out of `folder`."""
+        """Write the file into this folder.
+
+        Raises ValueError if its path is invalid or leads out of the folder.
+        """
         parts = self.path.split("/")
         if not all(parts) or {".", ".."}.intersection(parts) or len(self.path) > LONGEST_PATH:
             raise ValueError(f"{self.path[:LONGEST_PATH]!r} is not the path of a file inside a folder.")
@@ -84,7 +87,7 @@ class PartJob:
 
 
 def job_from(text: str | bytes) -> PartJob:
-    """Return the job from the output of `as_json`."""
+    """Return the job from the output of as_json()."""
     fields = json.loads(text)
     files = tuple(WorkFile(**each) for each in fields["files"])
     lists = {name: tuple(fields[name]) for name in ("answers", "hidden")}
@@ -117,6 +120,6 @@ class PartResult:
 
 
 def result_from(text: str | bytes) -> PartResult:
-    """Return the result from the output of `as_json`."""
+    """Return the result from the output of as_json()."""
     fields = json.loads(text)
     return PartResult(**{**fields, "messages": tuple(fields["messages"])})

@@ -54,7 +54,7 @@ def prepare() -> InteractiveShell:
 
 
 def run_part(job: PartJob, shell: InteractiveShell, send: Send) -> None:
-    """Run the cells of `job`, and then its check.
+    """Run the cells of a job, and then its check.
 
     If a cell raises an error, send a message, and run the next cell.
     """
@@ -69,7 +69,7 @@ def run_part(job: PartJob, shell: InteractiveShell, send: Send) -> None:
 
 
 def message_writer(descriptor: int) -> Send:
-    """Return a function that writes messages to `descriptor` as lines of JSON; the function never blocks."""
+    """Return a function that writes messages to a file descriptor as lines of JSON, and that never blocks."""
     os.set_blocking(descriptor, False)
 
     def send(message: Mapping[str, str]) -> None:

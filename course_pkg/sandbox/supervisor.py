@@ -127,7 +127,7 @@ def _start(work: Callable[[], None]) -> int:
 
 
 def run_master(port: int) -> None:
-    """Run a ROS master on `port` until this process ends."""
+    """Run a ROS master on the port `port` until this process ends."""
     import rosmaster.master
 
     rosmaster.master.Master(port, num_workers=3).start()
@@ -195,7 +195,7 @@ def _watch(student: int, folder: str, isolation: Isolation) -> int:
 
 
 def too_much_memory_below(ancestor: int, limit: int) -> bool:
-    """Return whether the descendants of `ancestor` together use more than `limit` bytes of memory.
+    """Return whether the descendants of a process together use more memory than `limit` (bytes).
 
     Forked processes share most of their memory. A sum that counts shared memory for each process is fast to
     compute, but it may be several times too large. The exact sum takes longer, so it is computed only if the

@@ -201,7 +201,7 @@ class Session:
         )
 
     def _wait(self, files: Sequence[int | socket.socket]) -> list[int | socket.socket]:
-        """Wait until one of `files` is ready, the supervisor ends, or the job reaches its time limit."""
+        """Wait until one of the files is ready, the supervisor ends, or the job reaches its time limit."""
         left = self._began + self._limit - time.monotonic()
         ready = select.select([*files, self._fork_server], [], [], max(left, 0.0))[0]
         if self._fork_server in ready:

@@ -62,7 +62,7 @@ def _linked_packages(places: Places) -> Iterator[tuple[str, Path]]:
 
 
 def _link(package: Path, folder: Path) -> None:
-    """Create the catkin package `package` from links to the files in `folder`.
+    """Create the catkin package `package` from links to the files in the folder `folder`.
 
     rosrun searches a package's whole folder for a program, and follows links. With a link to the whole
     checkout, rosrun would also find the programs in the student's own packages.

@@ -11,7 +11,10 @@ RECORD = ".course-release.json"  # In the students' edition, this file lists the
 
 
 def released_chapters(checkout: Path) -> tuple[str, ...] | None:
-    """Return the chapters of a students' edition, such as ("05", "06"); None for the instructors' edition."""
+    """Return the chapters of a students' edition, such as ("05", "06").
+
+    For the instructors' edition, return None.
+    """
     try:
         return tuple(map(str, json.loads((checkout / RECORD).read_text("utf-8"))["chapters"]))
     except (OSError, ValueError, KeyError, TypeError):

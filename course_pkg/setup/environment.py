@@ -39,7 +39,7 @@ def write(places: Places) -> None:
 
 
 def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
-    """Return `environ` with the variables of the course, which replace the user's values.
+    """Return the environment with the variables of the course, which replace the user's values.
 
     In PATH, the folders of the interpreter and of the system come before all other folders. ROS_MASTER_URI,
     ROS_HOSTNAME and ROS_IP keep the user's values. LD_PRELOAD contains a library of the course: if

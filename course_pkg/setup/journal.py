@@ -33,7 +33,7 @@ class Journal:
         env: Mapping[str, str] | None = None,
         watch: Callable[[str], None] | None = None,
     ) -> None:
-        """Run `command`, and wait until it ends.
+        """Run the command `command`, and wait until it ends.
 
         The function `watch` is called twice per second with the last line of the output. The output goes to a
         file, so a package manager can finish even if the set-up is killed. The command inherits the lock, so

@@ -55,7 +55,7 @@ def environment_works(places: Places) -> bool:
 
 
 def make_environment(places: Places, extra: str, journal: Journal) -> None:
-    """Create the virtual environment if it is missing, and install the libraries in the lock of `extra`.
+    """Create the virtual environment if it is missing, and install the libraries of the lock file `extra`.
 
     Libraries that the user has added to the environment are not removed. Raises SetupError if a tool fails.
     """

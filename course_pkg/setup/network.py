@@ -1,4 +1,4 @@
-"""What a private network for a graph needs from this computer."""
+"""The requirements of a private network for a graph on this computer."""
 
 from __future__ import annotations
 

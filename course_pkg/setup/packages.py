@@ -58,7 +58,7 @@ class Platform(NamedTuple):
 
 
 def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
-    """Return the platform for the distribution in `os_release`, or for its base distribution.
+    """Return the platform for the distribution in the file `os_release`, or for its base distribution.
 
     Raises SetupError if the course does not support the distribution; the error message contains the commands
     for conda.
@@ -87,7 +87,7 @@ def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
 
 
 def missing_packages(wanted: Iterable[str]) -> list[str]:
-    """Return the packages in `wanted` that are not completely installed.
+    """Return those of the wanted packages that are not completely installed.
 
     Raises SetupError if dpkg is missing.
     """
@@ -110,7 +110,7 @@ def database_state() -> str:
 
 
 def install_packages(names: Sequence[str], journal: Journal, report: Callable[[str], None]) -> None:
-    """Install `names`; if another package manager is running, wait until it has ended.
+    """Install the packages `names`; if another package manager is running, wait until it has ended.
 
     During the wait, the function `report` is called with a message. Raises SetupError if the user cannot
     install packages, or if a tool fails.
@@ -135,7 +135,7 @@ def install_packages(names: Sequence[str], journal: Journal, report: Callable[[s
 
 
 def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callable[[str], None]) -> None:
-    """Run `command`, and repeat the command while another program holds a lock that the command needs."""
+    """Run a command, and repeat the command while another program holds a lock that the command needs."""
     deadline = time.monotonic() + LOCK_TIMEOUT
     while True:
         try:

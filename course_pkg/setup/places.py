@@ -29,7 +29,7 @@ class Places(NamedTuple):
 
     @classmethod
     def of(cls, checkout: Path | None = None) -> Places:
-        """Return the folders of `checkout`; the default is the checkout that contains this module."""
+        """Return the folders of a checkout; the default is the checkout that contains this module."""
         checkout = (checkout or Path(__file__).parents[2]).resolve()
         if version := version_folder(checkout):
             return cls(checkout, version / BUILT)

@@ -70,7 +70,7 @@ class Progress:
                 self._write("\r\033[K")
 
     def advance(self, count: int = 1, *, kept: bool = False) -> None:
-        """Add `count` to the finished items.
+        """Add `count` to the number of finished items.
 
         If `kept` is true, an earlier run of the program has finished the items, so they take no time.
         """
@@ -84,7 +84,7 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Show `text`, which explains a wait, unless the previous call showed the same text."""
+        """Show the text `text`, which explains a wait, unless the previous call showed the same text."""
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:

@@ -34,7 +34,7 @@ class Stamps:
 
 
 def digest(parts: Iterable[str | bytes]) -> str:
-    """Return a short hash of `parts` and of their lengths: ["ab", "c"] differs from ["a", "bc"]."""
+    """Return a short hash of the parts and of their lengths: ["ab", "c"] differs from ["a", "bc"]."""
     hasher = hashlib.sha256()
     for part in parts:
         data = part.encode() if isinstance(part, str) else part
@@ -44,7 +44,7 @@ def digest(parts: Iterable[str | bytes]) -> str:
 
 @contextmanager
 def locked(path: Path, on_wait: Callable[[], None]) -> Iterator[int]:
-    """Acquire the lock at `path`, and yield its file descriptor.
+    """Acquire the lock at the path `path`, and yield its file descriptor.
 
     If another process has the lock, the function `on_wait` is called.
     """

@@ -43,10 +43,15 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
     step for the user.
     """
     stages = steps_of(places, grade=grade, hub=hub, test=test)
-    if all(step.is_done() for stage in stages for step in stage):
+    if _finished(stages):
         return
     if places.installed and hub and os.access(places.cache, os.W_OK):
         os.umask(0o022)  # The students' servers have to be able to read the libraries of the hub.
+    elif places.installed and hub and _finished(steps_of(places)):
+        raise SetupError(
+            f"The installation in {places.checkout.parent} does not contain the libraries of the hub yet. "
+            "They are installed when an administrator runs `course hub` for the first time."
+        )
     elif places.installed:
         raise SetupError(
             f"The installation in {places.checkout.parent} does not work on this machine any "
@@ -66,6 +71,10 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
     except KeyboardInterrupt:
         progress.note("The set-up was interrupted. The next set-up continues with the unfinished steps.")
         raise
+
+
+def _finished(stages: Sequence[Sequence[Step]]) -> bool:
+    return all(step.is_done() for stage in stages for step in stage)
 
 
 def steps_of(

@@ -16,14 +16,14 @@ SHOWN = "COURSE_CLASS_NOTICE_SHOWN"  # a variable of the kernel's environment, s
 
 
 def address() -> str:
-    """Return the address of the class service, without a slash at its end; "" if sharing is off."""
+    """Return the address of the class service, without a slash at its end, or "" if sharing is off."""
     return os.environ.get(ADDRESS, "").strip().rstrip("/")
 
 
 def keep_about(folder: Path, url: str, about: Mapping[str, object]) -> None:
-    """Store the data for the notice in `folder`; `about` is the response of the service at `url`.
+    """Store the data for the notice in the folder `folder`; `about` is the response of the service at `url`.
 
-    Raises OSError.
+    Raises OSError if the file cannot be written.
     """
     teacher, days = about.get("teacher"), about.get("days")
     write_json(folder / FILE, {"url": url, "teacher": str(teacher)[:100], "days": days})

@@ -12,8 +12,8 @@ from pathlib import Path
 from course_pkg.state import state_folder, write_json
 
 FOLDER = "class-outbox"
-LONGEST_HINT = 500  # characters
-LARGEST = 20_000  # maximum size of a file in bytes; `put` writes fewer bytes
+LONGEST_HINT = 500  # The length is in characters.
+LARGEST = 20_000  # maximum size of a file in bytes; the method `put` writes smaller files
 KEPT = 30 * 86_400  # time in s after which an unsent result is deleted
 
 
@@ -70,13 +70,13 @@ class Outbox:
         return found
 
     def remove(self, ids: Sequence[str]) -> None:
-        """Delete results that the service has stored. Raises OSError."""
+        """Delete results that the service has stored. Raises OSError if a file cannot be deleted."""
         for each in ids:
             (self.folder / f"{each}.json").unlink(missing_ok=True)
 
 
 def _hint(report: Mapping[str, object]) -> str:
-    """Return the hint or the text of the first assertion that does not hold; "" if all assertions hold."""
+    """Return the hint or the text of the first assertion that does not hold, or "" if all assertions hold."""
     assertions = report.get("assertions")
     for each in assertions if isinstance(assertions, Sequence) else ():
         if not each["holds"]:
@@ -85,7 +85,7 @@ def _hint(report: Mapping[str, object]) -> str:
 
 
 def _read(path: Path) -> dict[str, object] | None:
-    """Return the result in a file; None if the file is too old or contains no result."""
+    """Return the result in a file, or None if the file is too old or contains no result."""
     try:
         status = path.stat()
         if status.st_size > LARGEST or time.time() - status.st_mtime > KEPT:

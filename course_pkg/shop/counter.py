@@ -1,4 +1,7 @@
-"""The counter of a shop, and the times at which each customer comes and leaves; independent of ROS."""
+"""The counter of a shop, and the times at which each customer comes and leaves.
+
+This module does not need ROS.
+"""
 
 from __future__ import annotations
 
@@ -31,8 +34,8 @@ class Counter:
     def let_in(self, now: float, after: Sequence[float], stay: float) -> list[Visit]:
         """Plan a visit for each delay in `after`, and return the new visits.
 
-        A delay is a time in s from `now` until a customer comes; `stay` is the length of each visit in s.
-        Visits that earlier calls have planned for the future are removed. Raises FieldError for invalid
+        A delay is a time in s from the time `now` until a customer comes; `stay` is the length of each visit
+        in s. Visits that earlier calls have planned for the future are removed. Raises FieldError for invalid
         times; in this case, the visits do not change.
         """
         if len(after) > MOST:

@@ -1,4 +1,7 @@
-"""Compute a colour picture of the shop, and the frames of a small grey camera; independent of ROS."""
+"""Compute a colour picture of the shop, and the frames of a small grey camera.
+
+This module does not need ROS.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +29,7 @@ HEAD, SHOULDERS = 0.14, 0.2
 
 
 def shop_picture(width: int, height: int, customers: int) -> bytes:
-    """Return the picture in the encoding rgb8, with `height` rows of `width` pixels, from the top left.
+    """Return the picture in the encoding rgb8: rows of pixels, beginning at the top left.
 
     Each pixel has three bytes. The picture shows at most MOST customers.
     """
@@ -51,7 +54,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
 
 
 def _figure_at(y: float, coat: Colour) -> tuple[float, Colour]:
-    """Return half the width of a customer in the row at `y`, and the customer's colour there.
+    """Return half the width of a customer in the row at height `y`, and the customer's colour there.
 
     The width is a fraction of the picture's height.
     """

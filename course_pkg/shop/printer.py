@@ -1,4 +1,7 @@
-"""The printer of a cash register; independent of ROS."""
+"""The printer of a cash register.
+
+This module does not need ROS.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The customers that a camera sees at a counter, and functions that wait for one; independent of ROS.
+"""The customers that a camera sees at a counter, and functions that wait for one.
+
+This module does not need ROS.
 
 A Watch receives messages with the customers' numbers. An Eye receives frames, which are pictures of the
 counter.
@@ -52,7 +54,7 @@ class Watch:
 
     @property
     def silent_for(self) -> float:
-        """The time since the camera's last message in s; infinity before the first message."""
+        """The time since the camera's last message in s, or infinity before the first message."""
         return time.monotonic() - self._last
 
     @property
@@ -81,9 +83,11 @@ class Watch:
         return min((customer for customer in self._there if customer.number > after), default=None)
 
     def wait(self, after: int, patience: float, silence: float) -> Customer | None:
-        """Wait up to `patience` s for a customer with a number above `after`; return the customer or None.
+        """Wait for a customer with a number above `after`; return the customer or None.
 
-        Raises CameraSilent if no message has arrived for `silence` s.
+        The maximum waiting time is `patience` (s).
+
+        Raises CameraSilent if no message has arrived for the time `silence` (s).
         """
         deadline = time.monotonic() + patience
         with self.changed:
@@ -125,9 +129,11 @@ class Eye(Generic[Frame]):
 
 
 def await_customer(eye: Eye[Frame], patience: float) -> bool:
-    """Return True as soon as a customer is at the counter, or False if no customer comes within `patience` s.
+    """Return True as soon as a customer is at the counter; return False if none comes in time.
 
-    Raises CameraSilent after `patience` s if no valid frame arrived in the last second.
+    The maximum waiting time is `patience` (s).
+
+    Raises CameraSilent after this time if no valid frame arrived in the last second.
     """
     with eye.changed:
         found = eye.changed.wait_for(eye.look, timeout=patience)

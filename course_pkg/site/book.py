@@ -19,7 +19,7 @@ from course_pkg.site.glossary import Glossary
 from course_pkg.site.pages import COURSE, Page, Renderer, drawing
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-TIMEOUT = 180  # s
+TIMEOUT = 180  # The time is in s.
 OPTIONS = (
     "--headless",
     "--disable-gpu",
@@ -61,7 +61,7 @@ def book(renderer: Renderer, bodies: Sequence[tuple[Chapter, Body]], glossary: G
 
 
 def print_book(folder: Path) -> Path:
-    """Print `book.html` in `folder` to `book.pdf` in the same folder, and return the path of the PDF file.
+    """Print `book.html` to `book.pdf` in the same folder, and return the path of the PDF file.
 
     Raises SiteError if this machine has no Chromium, or if Chromium prints no file within TIMEOUT.
     """

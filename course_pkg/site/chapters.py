@@ -62,7 +62,7 @@ def chapter_of(name: str, notebook: Notebook) -> Chapter:
 
 
 def hours(chapters: Sequence[Chapter]) -> str:
-    """Return the total time of `chapters`, such as "2 hours and 5 minutes"."""
+    """Return the total time of these chapters, such as "2 hours and 5 minutes"."""
     whole, rest = divmod(sum(chapter.minutes for chapter in chapters), 60)
     parts = ((whole, "hour"), (rest, "minute"))
     return " and ".join(f"{number} {unit}{'s' * (number != 1)}" for number, unit in parts if number)

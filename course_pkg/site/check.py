@@ -16,7 +16,7 @@ VERBATIM = ("pre", "code", "script", "style", "title")
 
 
 def faults(folder: Path) -> list[str]:
-    """Return all faults of the site in `folder`; each message begins with the name of the page."""
+    """Return all faults of the site in the folder `folder`; each message begins with the name of the page."""
     pages = {path.name: _read(path) for path in sorted(folder.glob("*.html"))}
     return [
         f"{name}: {fault}"

@@ -68,7 +68,7 @@ def run_site(
 ) -> int:
     """Write the site, print the path of its first page, and return 0.
 
-    Raises SiteError if the run of a chapter failed, or if `check` is true and finds a problem.
+    Raises SiteError if the run of a chapter failed, or if `check` is true and the check finds a problem.
     """
     folder = Path(out) if out else Places.of().cache / "site" / ("student" if student else "pages")
     address = (os.environ.get(BINDER, "") if binder is None else binder).rstrip("/")

@@ -110,7 +110,7 @@ class Exporter(HTMLExporter):
         return inherited
 
     def body(self, notebook: Notebook, prefix: str = "", folder: Path = Path()) -> Body:
-        """Return the cells of `notebook` as HTML; all anchors begin with `prefix`.
+        """Return the cells of the notebook `notebook` as HTML; all anchors begin with the text `prefix`.
 
         `folder` is the folder of the notebook. The paths of the notebook's figures are relative to this
         folder. Raises SiteError if a figure is missing.
@@ -129,7 +129,7 @@ class Exporter(HTMLExporter):
 
 
 def _showable(notebook: Notebook) -> nbformat.NotebookNode:
-    """Return a copy of `notebook` without the outputs that a page cannot show.
+    """Return a copy of the notebook `notebook` without the outputs that a page cannot show.
 
     nbconvert would print a warning for each output that a page cannot show.
     """
@@ -201,7 +201,7 @@ class Sanitizer:
         )
 
     def __call__(self, html: str) -> str:
-        """Return `html` without elements that could run code, load a file, or look like the site's page."""
+        """Return the HTML without elements that could run code, load a file, or look like the site's page."""
         return str(self._cleaner.clean(html))
 
 

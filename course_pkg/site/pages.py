@@ -86,7 +86,7 @@ class Renderer:
         self._assets = assets
 
     def part(self, template: str, **values: object) -> Markup:
-        """Return the template, filled with `values`; a value is escaped, unless its type is Markup."""
+        """Return the template, filled with the values; a value is escaped, unless its type is Markup."""
         return Markup(self._environment.get_template(template).render(**self._frame, **values))  # noqa: S704
 
     def page(self, page: Page) -> str:
@@ -121,7 +121,7 @@ def landing(renderer: Renderer, chapters: Sequence[Chapter]) -> Page:
 
 
 def learning_paths(chapters: Sequence[Chapter]) -> list[LearningPath]:
-    """Return the learning paths through `chapters`.
+    """Return the learning paths through the chapters in `chapters`.
 
     A path without a list of chapters contains all chapters.
     """

@@ -34,7 +34,7 @@ class Plan(TypedDict, total=False):
 
     pick: str
     record: Sequence[Plain]
-    watch: float  # s
+    watch: float  # The time is in s.
     calls: Sequence[tuple[str, str, Mapping[str, float]]]
 
 
@@ -62,7 +62,7 @@ def plans(name: str) -> dict[str, Plan]:
 
 
 def with_recordings(name: str, notebook: Notebook) -> Notebook:
-    """Return a copy of `notebook` with a recording cell for each plan, below the panel's cell."""
+    """Return a copy of the notebook with a recording cell for each plan, below the panel's cell."""
     planned = plans(name)
     cells: list[Cell] = []
     for cell in notebook["cells"]:
@@ -73,12 +73,12 @@ def with_recordings(name: str, notebook: Notebook) -> Notebook:
 
 
 def without_recordings(notebook: Notebook) -> Notebook:
-    """Return a copy of `notebook` without the cells that `with_recordings` added."""
+    """Return a copy of the notebook `notebook` without the cells that `with_recordings` added."""
     return {**notebook, "cells": [cell for cell in notebook["cells"] if "recording" not in cell["metadata"]]}
 
 
 def record_panel(panel: Panel, plan: Plan) -> None:
-    """Record a panel according to `plan`; this function runs in the notebook's kernel.
+    """Record a panel according to the plan; this function runs in the notebook's kernel.
 
     A call to a service without a server is not recorded.
     """

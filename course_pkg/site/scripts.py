@@ -53,11 +53,11 @@ class _Modules:
         self._given: set[Path] = set()
 
     def name(self, path: Path) -> str:
-        """Return the name of the constant that stores the exports of the module at `path`."""
+        """Return the name of the constant that stores the exports of the module at the path `path`."""
         return "_" + re.sub(r"\W", "_", str(path.resolve().relative_to(self._folder).with_suffix("")))
 
     def needed(self, path: Path) -> Iterator[str]:
-        """Yield the modules that the module at `path` imports, and then the module itself.
+        """Yield the modules that the module at the path `path` imports, and then the module itself.
 
         Each module is yielded only once.
         """

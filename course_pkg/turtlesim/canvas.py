@@ -27,7 +27,7 @@ class Canvas:
         self._pixels[:] = bytes(colour) * (SIDE * SIDE)
 
     def colour_at(self, point: Point) -> Colour:
-        """Return the colour of the pixel nearest to `point` (px), which may be outside the canvas."""
+        """Return the colour of the pixel nearest to the point (px), which may be outside the canvas."""
         column, row = (min(max(math.floor(each + 0.5), 0), SIDE - 1) for each in point)
         start = (row * SIDE + column) * DEPTH
         red, green, blue = self._pixels[start : start + DEPTH]

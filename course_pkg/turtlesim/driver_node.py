@@ -78,7 +78,7 @@ def serve(services: DriverServices, *names: str) -> None:
 
 
 def run(node: str, *services: str) -> None:
-    """Run a node called `node` that drives turtle1 and offers `services`; return when it is shut down."""
+    """Run a node called `node` that drives turtle1 and offers the services; return when it is shut down."""
     rospy.init_node(node)
     prepare_node()
     driver = AdjustableDriver(_rate())

@@ -50,7 +50,7 @@ def to_twist(velocity: tuple[float, float]) -> Twist:
 
 
 def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> None:
-    """Publish the driver's velocity `driver.rate` times per second, until `over()` is true.
+    """Publish the driver's velocity at the rate `driver.rate` (1/s), until the function `over` returns True.
 
     The rate can change while this function runs.
     """

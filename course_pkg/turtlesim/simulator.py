@@ -69,7 +69,7 @@ class Simulator:
                 interface.publish()
 
     def in_tick(self, job: Callable[[], Result]) -> Result:
-        """Run `job` between two ticks, and return its result."""
+        """Run the function `job` between two ticks, and return its result."""
         return self._in_next_tick(job).result()
 
     def _in_next_tick(self, job: Callable[[], Result]) -> Future[Result]:

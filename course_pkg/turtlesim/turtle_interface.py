@@ -113,7 +113,7 @@ def _require_finite(*numbers: float) -> tuple[float, ...]:
 
 
 def publish_without_waiting(publisher: rospy.Publisher) -> None:
-    """Make `publisher` write its messages directly, without waiting for a subscriber."""
+    """Make the publisher write its messages directly, without waiting for a subscriber."""
     impl = publisher.impl
     original = impl.add_connection
     impl.queue_size = None
@@ -135,7 +135,7 @@ class _Writer:
         self._room.register(connection.socket, select.POLLOUT)
 
     def __call__(self, data: bytes) -> bool:
-        """Write `data`; if the send buffer has no space, drop `data`.
+        """Write the bytes `data`; if the send buffer has no space, drop them.
 
         Raises rospy's error if the connection is broken.
         """

@@ -1,4 +1,6 @@
-"""The world of the turtles: their positions, their motion, and the lines of their pens; independent of ROS.
+"""The world of the turtles: their positions, their motion, and the lines of their pens.
+
+This module does not need ROS.
 
 Lengths are in metres. The world is 11.088889 m wide and high, and its origin is at the bottom left. Angles
 are in radians, counter-clockwise from the x-axis. One tick is 16 ms.
@@ -86,7 +88,7 @@ class Turtle:
         self._draw(canvas, before)
 
     def teleport_relative(self, canvas: Canvas, distance: float, angle: float) -> None:
-        """Turn by `angle` (rad), and then move `distance` (m) forward at once."""
+        """Turn by the angle `angle` (rad), and then move forward by `distance` (m) at once."""
         before = self.point
         self.theta += angle
         self.x += math.cos(self.theta) * distance
@@ -154,7 +156,7 @@ class World:
     def kill(self, name: str) -> Turtle:
         """Remove a turtle from the world, and return it; the lines that it has drawn remain.
 
-        Raises UnknownTurtle.
+        Raises UnknownTurtle if no turtle has this name.
         """
         if name not in self.turtles:
             raise UnknownTurtle(f"Tried to kill turtle [{name}], which does not exist")
@@ -193,7 +195,7 @@ def normalized(angle: float) -> float:
 
 
 def _near_canvas(point: Point) -> Point:
-    """If `point` is far from the canvas, return a nearer point; otherwise, return `point`.
+    """Return the point; if it is far from the canvas, return a nearer point instead.
 
     A nearer point limits the time for drawing a line.
     """

@@ -16,10 +16,10 @@ _WIDTH = 88
 
 
 def rosservice_line(service: str, kind: ServiceType, values: Mapping[str, Plain]) -> str:
-    """Return the `rosservice call` line for bash that calls `service` with these values.
+    """Return the `rosservice call` line for bash that calls the service `service` with these values.
 
     If all fields are scalars, each value is one argument. If a field is a message, an array, a time or a
-    duration, the whole request is one YAML dict. Raises FieldError.
+    duration, the whole request is one YAML dict. Raises FieldError if a value is not valid.
     """
     plain = kind.request.check(values)
     # rosservice also reads an empty argument as an empty string, so two pairs of quotes are not necessary.
@@ -28,9 +28,10 @@ def rosservice_line(service: str, kind: ServiceType, values: Mapping[str, Plain]
 
 
 def rospy_line(service: str, kind: ServiceType, values: Mapping[str, Plain]) -> str:
-    """Return the lines of Python that call `service` with these values, in a node or a notebook.
+    """Return the lines of Python that call the service `service` with these values, in a node or a notebook.
 
-    If the type is not built, the lines generate the type from its definition. Raises FieldError.
+    If the type is not built, the lines generate the type from its definition. Raises FieldError if a value is
+    not valid.
     """
     plain = kind.request.check(values)
     short = kind.name.partition("/")[2]
@@ -50,10 +51,10 @@ def rostopic_line(
     rate: float | None = None,
     latch: bool = False,
 ) -> str:
-    """Return the `rostopic pub` line for bash that publishes these values, once or `rate` times per second.
+    """Return the `rostopic pub` line for bash that publishes these values, once or at the rate `rate` (Hz).
 
     If `latch` is true and `rate` is None, rostopic sends the message to later subscribers until Ctrl-C.
-    Raises FieldError.
+    Raises FieldError if a value is not valid.
     """
     given = _arguments(kind.fields, kind.check(values))
     once = [] if latch else ["--once"]
@@ -70,9 +71,10 @@ def publisher_lines(
     latch: bool = False,
     queue_size: int = 10,
 ) -> str:
-    """Return the lines of Python that publish these values in a node, once or `rate` times per second.
+    """Return the lines of Python that publish these values in a node, once or at the rate `rate` (Hz).
 
-    If the type is not built, the lines generate the type from its definition. Raises FieldError.
+    If the type is not built, the lines generate the type from its definition. Raises FieldError if a value is
+    not valid.
     """
     plain = kind.check(values)
     short = kind.name.partition("/")[2]

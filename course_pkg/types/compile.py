@@ -37,7 +37,10 @@ _IMPORT = re.compile(r"import \w+\.msg")
 
 
 def compiled_service(name: str, text: str, source: str, strict: bool = False) -> ServiceClass:
-    """Return the class of a service. Raises BrokenDefinition, or UnknownType for an invalid name."""
+    """Return the class of a service.
+
+    Raises BrokenDefinition if the definition has a mistake, and UnknownType if the name is invalid.
+    """
     package, short = split_type_name(name)
     generation = _Generation()
     spec = generation.load_service(name, text, source, strict)
@@ -56,13 +59,16 @@ def compiled_service(name: str, text: str, source: str, strict: bool = False) ->
 
 
 def compiled_message(name: str, text: str, source: str, strict: bool = False) -> MessageClass:
-    """Return the class of a message. Raises BrokenDefinition, or UnknownType for an invalid name."""
+    """Return the class of a message.
+
+    Raises BrokenDefinition if the definition has a mistake, and UnknownType if the name is invalid.
+    """
     generation = _Generation()
     return generation.message(generation.load_message(name, text, source, strict), source)
 
 
 def dependency(cls: MessageClass, name: str) -> MessageClass:
-    """Return the class of the message type `name`, which is the type of a field of `cls`."""
+    """Return the class of the message type `name`, which is the type of a field of this class."""
     full = "std_msgs/Header" if name in ("Header", "roslib/Header") else name
     found: MessageClass | None = getattr(cls, "_dependencies", {}).get(full) or built_message(full)
     assert found is not None
@@ -192,7 +198,7 @@ def _circle(source: str, text: str, type_name: str, chain: tuple[str, ...]) -> B
 
 
 def _refused(source: str, text: str, error: Exception) -> BrokenDefinition:
-    """Return the error for a definition that `diagnosis` accepts, but that genmsg or genpy refuses."""
+    """Return the error for a definition that the module `diagnosis` accepts, but genmsg or genpy refuses."""
     first = text.split("\n", maxsplit=1)[0]
     return BrokenDefinition(
         source, 1, 1, first, f"ROS refuses it: {error}", "compare it with wiki.ros.org/msg"

@@ -43,7 +43,10 @@ def _fits(number: float) -> bool:
 
 
 def parse_float(text: str) -> float:
-    """Return the number in a string; `inf` and `nan` are also numbers. Raises ValueError."""
+    """Return the number in a string; `inf` and `nan` are also numbers.
+
+    Raises ValueError for any other string.
+    """
     if _NAN.fullmatch(text):
         # Two lists with nan are equal only if both contain the same nan object, so always return this object.
         return math.nan
@@ -57,7 +60,10 @@ def parse_float(text: str) -> float:
 
 
 def parse_integer(text: str) -> int:
-    """Return the integer in a decimal string or a hexadecimal string (`0x…`). Raises ValueError."""
+    """Return the integer in a decimal or hexadecimal string (`0x…`).
+
+    Raises ValueError for any other string.
+    """
     if not text.isascii() or not _INTEGER.fullmatch(text):
         raise ValueError(text)
     return int(text, 16) if "x" in text.lower() else int(text)

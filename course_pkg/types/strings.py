@@ -42,7 +42,10 @@ def format_value(field: Field, value: Plain) -> StringTree:
 
 
 def parse_value(field: Field, text: StringTree, path: str) -> Plain:
-    """Convert a string tree into a value of the field. Raises FieldError."""
+    """Convert a string tree into a value of the field.
+
+    Raises FieldError if a string is not valid for its field.
+    """
     if field.kind is Kind.ARRAY:
         return _parse_array(field, text, path)
     if field.kind in (Kind.TIME, Kind.DURATION) and isinstance(text, str) and "{" not in text:
@@ -58,7 +61,10 @@ def parse_value(field: Field, text: StringTree, path: str) -> Plain:
 
 
 def parse_fields(fields: tuple[Field, ...], tree: StringTree, path: str, expected: str) -> dict[str, Plain]:
-    """Convert the string tree of a message into a dict, in the order of the fields. Raises FieldError."""
+    """Convert the string tree of a message into a dict, in the order of the fields.
+
+    Raises FieldError if a string is not valid for its field.
+    """
     if isinstance(tree, str):
         tree = _parse_flow(tree, "{", "}", path, expected)
     require_names(fields, tree, path, expected)

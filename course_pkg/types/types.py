@@ -59,12 +59,15 @@ class MessageType:
     def check(self, plain: Mapping[str, Plain] | genpy.Message) -> dict[str, Plain]:
         """Check a message or a dict of values, and return the values of its fields as a dict.
 
-        Raises FieldError.
+        Raises FieldError if a value is not valid for its field.
         """
         return check_fields(self.fields, plain, "", self._shape)
 
     def parse(self, tree: StringTree) -> dict[str, Plain]:
-        """Convert a string tree into a dict of values. Raises FieldError."""
+        """Convert a string tree into a dict of values.
+
+        Raises FieldError if a string is not valid for its field.
+        """
         return parse_fields(self.fields, tree, "", self._shape)
 
     def format(self, plain: Mapping[str, Plain]) -> dict[str, StringTree]:
@@ -72,7 +75,10 @@ class MessageType:
         return {each.name: format_value(each, plain[each.name]) for each in self.fields}
 
     def to_message(self, plain: Mapping[str, Plain]) -> genpy.Message:
-        """Return a message with these values. Raises FieldError."""
+        """Return a message with these values.
+
+        Raises FieldError if a value is not valid for its field.
+        """
         return build(self.cls, self.fields, self.check(plain))
 
     def to_values(self, message: genpy.Message) -> dict[str, Plain]:
@@ -119,7 +125,7 @@ def service_type(type_or_name: str | ServiceType | ServiceClass) -> ServiceType:
     """Return the service type for a full name (`std_srvs/SetBool`) or for a generated class.
 
     If a type on ROS_PACKAGE_PATH is not built, the class of the type is generated from the definition. Raises
-    UnknownType, or BrokenDefinition for a definition that ROS does not accept.
+    UnknownType if there is no such type, and BrokenDefinition if ROS does not accept its definition.
     """
     if isinstance(type_or_name, ServiceType):
         return type_or_name
@@ -136,7 +142,7 @@ def service_type(type_or_name: str | ServiceType | ServiceClass) -> ServiceType:
 def message_type(type_or_name: str | MessageType | MessageClass) -> MessageType:
     """Return the message type for a full name (`geometry_msgs/Point`) or for a generated class.
 
-    If a type is not built, its class is generated; the errors are the same as in `service_type`.
+    If a type is not built, its class is generated; the errors are the same as in service_type().
     """
     if isinstance(type_or_name, MessageType):
         return type_or_name
@@ -154,7 +160,7 @@ def message_type(type_or_name: str | MessageType | MessageClass) -> MessageType:
 def type_in_file(name: str, kind: DefinitionKind) -> ServiceType | MessageType:
     """Return the type that a .srv or .msg file defines now, even if an older version is built.
 
-    Raises UnknownType, or BrokenDefinition for a definition that ROS does not accept.
+    Raises UnknownType if there is no such type, and BrokenDefinition if ROS does not accept its definition.
     """
     file = definition_file(name, kind)
     if file is None:
@@ -169,7 +175,7 @@ def compile_service(name: str, text: str) -> ServiceType:
     """Return the service type called `name` that is defined by the text of a .srv file.
 
     This function is stricter than genmsg, which accepts some mistakes (no `---` line, two `---` lines, a name
-    that is a keyword of Python). Raises BrokenDefinition.
+    that is a keyword of Python). Raises BrokenDefinition if the text has a mistake.
     """
     return _service(compiled_service(name, text, f"{name}.srv", strict=True))
 
@@ -177,7 +183,7 @@ def compile_service(name: str, text: str) -> ServiceType:
 def compile_message(name: str, text: str) -> MessageType:
     """Return the message type called `name` that is defined by the text of a .msg file.
 
-    This function refuses the same mistakes, and raises the same errors, as `compile_service`.
+    This function refuses the same mistakes as compile_service(), and raises the same errors.
     """
     return _message(compiled_message(name, text, f"{name}.msg", strict=True))
 

@@ -49,7 +49,10 @@ def check(field: Field, value: object, path: str) -> Plain:
 
 
 def check_fields(fields: tuple[Field, ...], values: object, path: str, expected: str) -> dict[str, Plain]:
-    """Return the checked values of a message's fields, in the order of the fields. Raises FieldError."""
+    """Return the checked values of a message's fields, in the order of the fields.
+
+    Raises FieldError if a value is not valid for its field.
+    """
     if isinstance(values, (genpy.Message, TVal)):
         values = {name: getattr(values, name) for name in values.__slots__}
     require_names(fields, values, path, expected)
@@ -119,7 +122,7 @@ def allowed(field: Field) -> str:
 
 
 def member_path(path: str, name: str) -> str:
-    """Return the path of a field inside the field at `path`."""
+    """Return the path of a field inside the field at the path `path`."""
     return f"{path}.{name}" if path else name
 
 

@@ -27,7 +27,7 @@ HEADERS = {
 
 
 def templates_in(folder: Path) -> Environment:
-    """Return the HTML templates in `folder`; they escape all values."""
+    """Return the HTML templates in the folder `folder`; they escape all values."""
     return Environment(loader=FileSystemLoader(folder), autoescape=True, trim_blocks=True, lstrip_blocks=True)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 HEADER = "include/ros/ros.h"
 LIBRARIES = ("roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "boost_thread")
-# Without this option, the compiler accepts a handler without a return statement, which may crash.
+# Without this option, the compiler accepts a handler without a return statement; such a handler may crash.
 WARNINGS = ("-Werror=return-type",)
 
 
@@ -35,7 +35,7 @@ def prefixes() -> list[Path]:
 
 
 def compile_command(source: str, program: str) -> list[str]:
-    """Return a command that builds `program` from one file with the options of catkin, without CMake."""
+    """Return a command that builds a program from one file with the options of catkin, without CMake."""
     folders: list[str] = []
     for prefix in prefixes():
         if prefix == Path("/usr"):  # The compiler searches /usr without an option.

@@ -1,4 +1,4 @@
-"""A fault in a package; the functions find the line of a fault even in an invalid package.xml."""
+"""Describes a fault in a package, and finds the line of a fault, even in an invalid package.xml."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Fault:
 
     @property
     def place(self) -> str:
-        """Return the file and line, such as "my_services/CMakeLists.txt, line 6"; "" for an unknown file."""
+        """Return the file and line, such as "my_services/CMakeLists.txt, line 6", or "" without a file."""
         return f"{self.file}, line {self.line}" if self.line else self.file
 
     def __str__(self) -> str:

@@ -1,7 +1,9 @@
-"""The same class with DockerSpawner: one container for each student. Untested, for lack of an image registry.
+"""The configuration of a hub that starts one Docker container for each student.
 
-Build the image from the course's Dockerfile as `ros-services-course`, and install dockerspawner 14 beside
-JupyterHub. Each container has its own network namespace, so its graph is private.
+This file is untested, because no image registry was available.
+
+Build the image from the course's Dockerfile as `ros-services-course`, and install dockerspawner 14 in
+JupyterHub's environment. Each container has its own network namespace, so its ROS graph is private.
 """
 
 c = get_config()  # noqa: F821 -- JupyterHub defines this function

@@ -1,7 +1,7 @@
-"""The configuration of JupyterHub 5 for a class on one machine. `course hub` starts the hub with it.
+"""The configuration of JupyterHub 5 for a class on one machine. `course hub` starts the hub with this file.
 
-`course hub` writes the values of `settings` from its options. Change or add any other option of JupyterHub
-here.
+`course hub` writes the values of `settings` from its options. Change or add any other option of JupyterHub in
+this file.
 """
 
 import sys
@@ -11,7 +11,7 @@ from course_pkg.hub.settings import Settings
 c = get_config()  # noqa: F821 -- JupyterHub defines this function
 settings = Settings.read()
 
-# Browsers reach the proxy at `url`. The hub and the proxy's control port listen on 127.0.0.1 only.
+# Browsers reach the proxy at `url`. The hub and the proxy's control port listen only on 127.0.0.1.
 c.JupyterHub.bind_url = settings.url
 c.JupyterHub.ssl_cert = settings.cert
 c.JupyterHub.ssl_key = settings.key
@@ -20,7 +20,8 @@ c.ConfigurableHTTPProxy.api_url = f"http://127.0.0.1:{settings.proxy_port}"
 c.ConfigurableHTTPProxy.command = [settings.proxy]
 c.ConfigurableHTTPProxy.pid_file = f"{settings.state}/proxy.pid"
 
-# The hub's own data. Cookies stay valid when the hub starts again, because the secret is stored.
+# The hub stores its own data in these files. Cookies stay valid when the hub starts again, because the secret
+# is stored.
 c.JupyterHub.db_url = f"sqlite:///{settings.state}/hub.sqlite"
 c.JupyterHub.cookie_secret_file = f"{settings.state}/cookie_secret"
 c.JupyterHub.cleanup_servers = True
@@ -37,7 +38,7 @@ c.CourseSpawner.processes = settings.processes
 c.Spawner.environment = settings.environment
 c.Spawner.env_keep = ["LANG", "LC_ALL", "TZ"]
 c.Spawner.default_url = "/lab"
-# When a class starts at once, a server on a small machine takes minutes instead of 3 s.
+# If all students start at the same time, a server on a small machine needs minutes instead of 3 s to start.
 c.Spawner.start_timeout = 300
 c.Spawner.http_timeout = 300
 

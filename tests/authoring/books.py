@@ -9,7 +9,7 @@ EXERCISE = "def handle_geometry(request):\n    return request.width, 1"
 
 
 def code(source: str, **more: Plain) -> Cell:
-    """Return a code cell; the values of `course` and `tags` are stored in the metadata of the cell."""
+    """Return a code cell; the arguments `course` and `tags` become entries of the cell's metadata."""
     metadata = {key: more.pop(key) for key in ("course", "tags") if key in more}
     cell = {"cell_type": "code", "id": more.pop("id", "a"), "metadata": metadata, "source": source}
     return {**cell, "outputs": [], "execution_count": None, **more}
@@ -32,5 +32,5 @@ def check(part: str = "05.1") -> Cell:
 
 
 def book(*cells: Cell) -> Notebook:
-    """Return a notebook that consists of the cells `cells`."""
+    """Return a notebook with the given cells."""
     return {"cells": list(cells), "metadata": {}, "nbformat": 4, "nbformat_minor": 5}

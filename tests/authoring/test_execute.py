@@ -37,7 +37,7 @@ PLOT = (
 
 
 def solution(root: Path, *cells: Cell) -> Path:
-    """Write a solution notebook of chapter 05 with the cells `cells`, and return the path of the notebook."""
+    """Write a solution notebook of chapter 05 with the given cells, and return the path of the notebook."""
     (root / "solutions").mkdir()
     path = root / "solutions" / "05_write_a_server.ipynb"
     path.write_text(json.dumps(book(*cells)))
@@ -105,7 +105,7 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
 
 
 def test_a_check_without_a_report_has_not_passed() -> None:
-    """A check cell passes only if its output is a report of its own part; printed text is no report."""
+    """A check passed only if the cell's output is a report of this check; printed text is not a report."""
     passed = {"output_type": "execute_result", "data": {"text/plain": "05.1 passed: 2 of 2 points"}}
     printed = {"output_type": "stream", "name": "stdout", "text": "05.1 passed"}
     assert not_passed(book(_checked(passed), _checked(printed, passed), code("1"))) == {}

@@ -40,7 +40,7 @@ def test_a_second_normalisation_changes_nothing() -> None:
 
 
 def test_only_parts_that_differ_between_runs_are_removed() -> None:
-    """`tidy` removes widget ids and timings, but not texts and tags."""
+    """`tidy` removes widget ids and timings from a notebook, and keeps its texts and tags."""
     data = {"text/plain": "Panel()", VIEW: {"model_id": "0123"}}
     shown = {"output_type": "display_data", "data": data, "metadata": {}}
     cell = code("panel", outputs=[stream("a"), stream("b\n"), shown], execution_count=77, tags=["x"])

@@ -32,7 +32,7 @@ def write(root: Path, notebook: Notebook, name: str = "05_write_a_server") -> No
 
 
 def test_sync_updates_the_notebooks(root: Path) -> None:
-    """`course sync --check` reports a missing notebook, and passes after `course sync`."""
+    """`course sync --check` fails if a notebook is missing, and succeeds after `course sync`."""
     with pytest.raises(AuthoringError, match=r"course sync[\s\S]*notebooks/05_write_a_server.ipynb"):
         sync(check=True, root=root)
     assert sync(root=root) == 0
@@ -54,7 +54,7 @@ def test_a_students_notebook_has_no_answer(root: Path) -> None:
 
 
 def repair(source: str) -> list[Cell]:
-    """Return the cells of chapter 04; `source` is the solution of every part."""
+    """Return the cells of a notebook of chapter 04 in which all parts have the same solution."""
     cells = []
     for part in parts_of("04"):
         cells += [exercise(part.check, part.points, source), check(part.check)]
@@ -62,7 +62,7 @@ def repair(source: str) -> list[Cell]:
 
 
 def test_an_exercise_that_repairs_a_file_begins_with_the_broken_file(tmp_path: Path) -> None:
-    """The student's cell contains the broken file instead of a blank exercise."""
+    """If an exercise repairs a file, the student's cell contains the broken file."""
     path = "src/lamp_services/CMakeLists.txt"
     write(tmp_path, book(*repair(f"%%writefile {path}\nproject(lamp_services)")), "04_define_a_service")
     with pytest.raises(AuthoringError):
@@ -75,7 +75,7 @@ def test_an_exercise_that_repairs_a_file_begins_with_the_broken_file(tmp_path: P
 
 
 def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) -> None:
-    """If an exercise cell and its check use different file names, the sync fails."""
+    """If an exercise cell writes another file than the file of its check, `course sync` fails."""
     write(tmp_path, book(*repair("%%writefile elsewhere.txt\nproject(lamp_services)")), "04_define_a_service")
     with pytest.raises(AuthoringError, match=r"exercise-04-4: the check gives students a cell that begins"):
         sync(root=tmp_path)
@@ -131,7 +131,7 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
     ],
 )
 def test_each_problem_of_a_solution_is_reported(tmp_path: Path, cells: list[Cell], words: str) -> None:
-    """For a wrong solution notebook, the error message contains the notebook's name and the problem."""
+    """If a solution notebook has a mistake, the error message contains its name and describes the mistake."""
     write(tmp_path, book(*cells))
     with pytest.raises(AuthoringError, match=rf"05_write_a_server[^\n]*{words}"):
         sync(root=tmp_path)

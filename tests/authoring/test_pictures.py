@@ -1,4 +1,4 @@
-"""When a solution notebook is stored, the output of each panel gets a picture."""
+"""When `course sync` stores a solution notebook, each panel in the outputs gets a picture."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return `notebook` as NotebookStore writes it; `before` is the notebook that was stored earlier."""
+    """Return a notebook as NotebookStore stores it if `before` was stored earlier."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)
@@ -45,7 +45,7 @@ def test_a_panel_gets_a_picture_beside_its_text() -> None:
 
 
 def test_a_plot_stays_while_nothing_changed() -> None:
-    """If neither the code nor the text output changes, the stored plot is not replaced."""
+    """If the code and the text output are unchanged, the stored plot stays."""
     first = stored(executed("<svg>1</svg>"), book())
     assert first["cells"][1]["outputs"][0]["metadata"][SVG][MADE_BY]
     assert stored(executed("<svg>2</svg>"), first) == first

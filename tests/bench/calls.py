@@ -68,7 +68,7 @@ def bounded_compare(label: str, bare: rospy.ServiceProxy, bounded: BoundedProxy,
 
 
 def looks(count: int) -> None:
-    """Print the duration of a snapshot of a ROS graph with `count` nodes."""
+    """Print the duration of a snapshot of a ROS graph with the given number of nodes."""
     processes = [NodeProcess.rosrun("course_pkg", "pulse", name=f"pulse_{number}") for number in range(count)]
     for number, process in enumerate(processes):
         process.wait_for_service(f"/pulse_{number}/get_loggers", timeout=60)
@@ -134,8 +134,8 @@ def panel_main() -> int:
 # register (the till) causes a fault at every third payment. The till is a separate process; the benchmark
 # stops, kills and restarts it. The till writes each payment to a file before it sends its response. These
 # results are errors: a missing payment, a payment that was made twice, a receipt without a payment, a missing
-# receipt, and a refusal that pay() does not report. A payment that has not ended 2 s after its time limit
-# counts as a hang.
+# receipt, and a refusal that pay() does not report. The benchmark counts a hang if a payment still runs 2 s
+# after its time limit.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
 DEADLINE = 15.0  # A payment must end within this many seconds. The restart of a killed till needs about 1 s.
@@ -201,7 +201,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """Runs the till (the node of a cash register) in a process; restarts the till after each exit."""
+    """Runs the node of a cash register (the till) in a separate process; restarts it after each exit."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -212,7 +212,7 @@ class Street:
         self._keeper.start()
 
     def payment(self, pay: Callable[..., int | None], cents: int, fault: str, dice: random.Random) -> str:
-        """Make a payment while the till causes the fault `fault`.
+        """Make a payment while the till causes the given fault.
 
         Return "right", "hang", or a description of the error.
         """
@@ -420,7 +420,7 @@ def recorder_main() -> int:
 
 
 def started(way: str, core: int) -> subprocess.Popen[bytes]:
-    """Start a server; if the parameter `way` is "recorded", the server records its calls."""
+    """Start a server of the kind "recorded" (with a recorder of its calls) or "bare" (without a recorder)."""
     server = subprocess.Popen([sys.executable, "-c", SERVER, way, str(core), "0"])
     rospy.wait_for_service(way, timeout=20)
     return server

@@ -18,14 +18,14 @@ def run_command(commands: Mapping[str, Callable[[], int | None]]) -> NoReturn:
 
 
 def milliseconds(action: Callable[[], object]) -> float:
-    """Return the duration of `action` in ms."""
+    """Return the duration of an action in ms."""
     began = time.perf_counter()
     action()
     return 1000 * (time.perf_counter() - began)
 
 
 def times_of(action: Callable[[], object], repeats: int) -> list[float]:
-    """Run `action` several times, and return the duration of each run in ms."""
+    """Run an action several times, and return the duration of each run in ms."""
     return [milliseconds(action) for _ in range(repeats)]
 
 

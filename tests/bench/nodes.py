@@ -202,7 +202,7 @@ def bare_round() -> float:
 
 
 def measured(label: str, rounds: int, turn: Callable[[], float]) -> tuple[float, float, int]:
-    """Call the function `turn` several times.
+    """Call a function several times, and measure the duration of each call.
 
     Print and return the median and the maximum duration in s, and the number of rounds that changed the
     graph.

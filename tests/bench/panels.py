@@ -49,7 +49,7 @@ from tests.browser.pages import new_page, panel
 # graph: measures an update of the graph panel with 20 nodes and 40 topics, and the CPU time for an unchanged
 # graph.
 
-UPDATE_BAR = 150.0  # ms
+UPDATE_BAR = 150.0  # An update may take at most this many ms.
 IDLE_BAR = 2.0  # The panel may use at most this percentage of a core.
 NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
@@ -77,7 +77,7 @@ while not rospy.is_shutdown():
 
 
 def graph(turn: int) -> Snapshot:
-    """Return a graph in which the name of one topic depends on `turn`."""
+    """Return a graph; the name of one topic depends on the given number."""
     names = [f"/robot_{number}" for number in range(NODES)]
     topics = [
         TopicSeen(f"/topic_{number}_{turn if not number else 0}", "std_msgs/String", (names[number % NODES],),
@@ -273,7 +273,7 @@ def recording() -> Recording:
 
 
 def call(number: int, at: float) -> list[Event]:
-    """Return the events of a call that begins at `at` s."""
+    """Return the events of a call that begins at a given time (in s)."""
     key, who, whom = f"call {number}", "/customer", "/cashier"
     parts = (
         (LOOKUP, 0, 1e-3),
@@ -338,7 +338,7 @@ def run(client: BlockingKernelClient, code: str) -> str:
 
 @contextmanager
 def talker(rate: float) -> Iterator[None]:
-    """Publish at `rate` Hz from a separate process during the `with` block."""
+    """Publish at the given rate (Hz) from a separate process during the `with` block."""
     process = subprocess.Popen([sys.executable, "-c", TALKER, str(rate)])
     try:
         time.sleep(3)
@@ -425,7 +425,7 @@ MANIFEST = "<package format='2'><name>{}</name><version>1.0.0</version></package
 
 
 def fill(folder: Path) -> None:
-    """Write PACKAGES packages into `folder`, each with TYPES service types and TYPES message types."""
+    """Write PACKAGES packages into a folder, each with TYPES service types and TYPES message types."""
     for number in range(PACKAGES):
         root = folder / f"bulk_{number}"
         for half, text in (("srv", "geometry_msgs/Pose goal\n---\nbool done\n"), ("msg", "float64 x\n")):
@@ -524,7 +524,7 @@ def counted(page: Page) -> list[int]:
 
 
 def measure(page: Page, received: list[int], seconds: float) -> None:
-    """Print the frames, the bytes and the CPU time while the turtles move for `seconds` s."""
+    """Let the turtles move for some seconds, and print the numbers of frames and bytes, and the CPU time."""
     turtles = panel(page, "Turtle panel")
     pid = int(page.locator(".jp-OutputArea-output").last.inner_text())
     page.wait_for_timeout(3000)

@@ -77,7 +77,7 @@ def fresh_main() -> int:
 
 
 def fresh_measure(pristine: Path, system: Path) -> float:
-    """Copy the system `pristine` to `system`, and return the duration in s of a first start."""
+    """Copy a new system, and return the duration in s of the first start in the copy."""
     subprocess.run(["cp", "-a", pristine, system], check=True)
     checkout = system / "home" / "course"
     checkout.mkdir(parents=True)
@@ -102,14 +102,14 @@ def fresh_measure(pristine: Path, system: Path) -> float:
 
 
 def inside(system: Path, script: str) -> None:
-    """Run `script` in a mount namespace of `system`."""
+    """Run a script in a mount namespace, with the copied system as the root folder."""
     env = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root"}
     env |= {name: os.environ[name] for name in (*KEPT, *(it.upper() for it in KEPT)) if name in os.environ}
     subprocess.run(["unshare", "--mount", "sh", "-c", INSIDE, system, script], env=env, check=True)
 
 
 def mirror(codename: str) -> str:
-    """Return the apt mirror for the Debian release `codename`, or for the release of this machine."""
+    """Return the apt mirror for a Debian release; the default is the release of this machine."""
     targets = [
         "apt-get",
         "indextargets",
@@ -124,7 +124,7 @@ def mirror(codename: str) -> str:
 
 
 def tell_surroundings(system: Path) -> None:
-    """Copy the files that are needed for package downloads into `system`."""
+    """Copy the files that are needed for package downloads into the new system."""
     for name in SURROUNDINGS:
         source, target = Path(name), system / name[1:]
         if source.is_dir():
@@ -140,7 +140,7 @@ def tell_surroundings(system: Path) -> None:
 # rospy.
 
 ROUNDS = 21
-IMPORTS_BAR = 60.0  # ms
+IMPORTS_BAR = 60.0  # The import of course_pkg may take at most this many ms more than the import of rospy.
 PEER = "import rospy"
 STATEMENTS = {
     "course_pkg": "import rospy, course_pkg",
@@ -154,7 +154,7 @@ STATEMENTS = {
 
 
 def import_time(statement: str) -> float:
-    """Return the time in ms that a new interpreter needs for `statement`."""
+    """Return the time in ms that a new interpreter needs for a statement."""
     start = time.perf_counter()
     subprocess.run([sys.executable, "-c", statement], check=True)
     return (time.perf_counter() - start) * 1000

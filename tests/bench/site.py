@@ -162,7 +162,7 @@ def axe_main() -> None:
 # The default for WORKERS is the number of workers that `course` uses on this machine.
 
 SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
-BAR = 0.45  # A parallel run may take at most this fraction of the serial run.
+BAR = 0.45  # A parallel run may take at most this fraction of the duration of a serial run.
 LIMIT = 3600.0  # One run may take at most this many seconds.
 
 
@@ -246,7 +246,7 @@ def listeners_during(path: Path) -> set[str]:
 
 
 def listening(pids: list[int]) -> set[str]:
-    """Return the addresses on which the processes `pids` listen."""
+    """Return the addresses on which the given processes listen."""
     sockets = {inode for pid in pids for inode in inodes(pid)}
     tables = [Path("/proc/net/tcp"), Path("/proc/net/tcp6")]
     rows = [line.split() for table in tables if table.exists() for line in table.read_text().splitlines()[1:]]
@@ -254,7 +254,7 @@ def listening(pids: list[int]) -> set[str]:
 
 
 def inodes(pid: int) -> set[str]:
-    """Return the inodes of the open sockets of the process `pid`."""
+    """Return the inodes of the open sockets of a process."""
     try:
         links = [os.readlink(entry) for entry in os.scandir(f"/proc/{pid}/fd")]
     except OSError:

@@ -23,7 +23,7 @@ FLAGS = [
 
 @contextmanager
 def chromium() -> Iterator[Browser]:
-    """Start Chromium. Start Chromium; skip the test if Chromium is not installed."""
+    """Start Chromium; skip the test if Chromium is not installed."""
     program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if not program:
         pytest.skip("no Chromium on this machine")

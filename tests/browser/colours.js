@@ -1,4 +1,5 @@
-// Returns the contrast between the line of a chart in `root` and its background (WCAG 2.2, 1.4.11 requires 3 : 1).
+// Returns the contrast between the line of a chart and the background of the chart (WCAG 2.2, 1.4.11 requires
+// 3 : 1).
 (root) => {
   const numbers = (color) => color.match(/[\d.]+/g).map(Number).slice(0, 3);
   const linear = (part) => (part / 255 <= 0.03928 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4);

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, BrowserContext, Page, ViewportSize
 from tests.browser.jupyter import Lab, running_lab
 from tests.browser.pages import new_page, no_errors
 
-SIZE: ViewportSize = {"width": 1280, "height": 1000}  # px
+SIZE: ViewportSize = {"width": 1280, "height": 1000}  # size of the window in px
 
 
 @pytest.fixture(scope="session")

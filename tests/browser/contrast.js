@@ -1,5 +1,6 @@
-// Returns the texts in `root` whose contrast to their background is below 4.5 : 1 (WCAG 2.2, 1.4.3). The background
-// is that of the nearest ancestor that has one. Disabled controls and texts for screen readers are not checked.
+// Returns the texts in a part of the page that have a contrast below 4.5 : 1 to their background (WCAG 2.2,
+// 1.4.3). The background of a text is the background of its nearest ancestor with a background colour. The
+// function does not check disabled controls and texts for screen readers.
 (root) => {
   const numbers = (color) => (color.match(/[\d.]+/g) ?? []).map(Number);
   const linear = (part) => (part / 255 <= 0.03928 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4);

@@ -36,7 +36,7 @@ OPEN = """async (path) => {
   await shown.context.ready;
   await shown.sessionContext.ready;
 }"""
-CONNECTED = 90_000  # ms
+CONNECTED = 90_000  # The kernel may need at most this many ms until it is idle.
 IDLE = "() => window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
 # This file contains the course's settings of JupyterLab.
@@ -129,7 +129,7 @@ def _command(port: int, root: Path) -> list[str]:
 
 
 def _environment(folder: Path, runtime: str, master: str) -> Mapping[str, str]:
-    """Return an environment with separate JupyterLab settings, so that several servers can run at once."""
+    """Return an environment with separate JupyterLab settings, so that several servers can run together."""
     for place, values in json.loads(OVERRIDES.read_text("utf-8")).items():
         extension, _, name = place.partition(":")
         settings = folder / "settings" / extension

@@ -1,4 +1,4 @@
-// Returns the texts of a chart in `root` that overlap each other.
+// Returns the texts of a chart that overlap each other.
 (root) => {
   const boxes = [...root.querySelectorAll(".ros-chart-canvas text")].map((each) => [each.textContent, each.getBoundingClientRect()]);
   return boxes.flatMap(([one, a], index) => boxes.slice(0, index).filter(([, b]) =>

@@ -82,7 +82,7 @@ def widget(master: PrivateMaster) -> GraphPanel:
 
 
 def shape(graph: Locator, key: str) -> Locator:
-    """Return the element of a node, a topic, a service or a frame by its key."""
+    """Return the element of a node, topic, service or frame; the argument is the key of the element."""
     return graph.locator(f'[role="button"][data-key="{key}"]')
 
 
@@ -147,7 +147,7 @@ def played(widget: GraphPanel) -> GraphPanel:
 
 
 def seek(graph: Locator, seconds: float) -> None:
-    """Move the slider to `seconds` in the recording."""
+    """Move the slider to a time of the recording (in s)."""
     graph.get_by_label("Moment of the recording").fill(str(round(1000 * seconds)))
 
 

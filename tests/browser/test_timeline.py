@@ -75,7 +75,7 @@ def spot(timeline: Locator, time: float, lane: int) -> tuple[float, float]:
 
 
 def click(page: Page, timeline: Locator, time: float, lane: int) -> None:
-    """Click at the time `time` (in s) in the row of the node with the index `lane`."""
+    """Click in the row of a node; `time` is in s, and `lane` is the node's index."""
     x, y = spot(timeline, time, lane)
     drawing(timeline).click(position={"x": x, "y": y})
 
@@ -164,7 +164,7 @@ def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
     picture(timeline, "timeline-zoomed")
     box: FloatRect | None = drawing(timeline).bounding_box()
     assert box is not None
-    # Before and after the zoom, the look-up starts at this fraction of the width.
+    # The look-up of the service starts at this fraction of the drawing's width, before and after the zoom.
     share = (0.2 / LENGTH + EDGE) / (1 + 2 * EDGE)
     wide = box["width"] / (LENGTH * (1 + 2 * EDGE)) * 2**7 * 0.001
     assert wide > 50

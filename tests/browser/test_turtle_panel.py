@@ -32,7 +32,7 @@ threading.Timer(1, later).start()
 
 
 def seek(turtles: Locator, part: float) -> None:
-    """Move the recording's slider; `part` is the position from 0 (start) to 1 (end)."""
+    """Move the recording's slider to a position from 0 (start) to 1 (end)."""
     turtles.get_by_label("Moment of the recording").evaluate(
         "(handle, part) => { handle.value = handle.max * part; handle.dispatchEvent(new Event('input')) }",
         part,

@@ -81,7 +81,7 @@ def test_a_saved_browser_keeps_what_was_open(
 def test_a_broken_file_is_shown_with_its_line(
     master: PrivateMaster, page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The error message contains the file and the line, and the panel shows the text of the file."""
+    """If a definition is invalid, the error message contains the file, the line and the column."""
     assert master.uri
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     package(tmp_path, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")

@@ -62,7 +62,7 @@ def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
 
 
 def let_in(*after: float, stay: float = FOR_GOOD) -> LetInResponse:
-    """Let customers in."""
+    """Let customers enter the shop."""
     return BoundedProxy("/let_in", LetIn)(after=after, stay=stay)
 
 
@@ -107,7 +107,7 @@ def test_call_without_a_customer_ends_after_its_patience() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_customers_who_come_together_are_returned_one_by_one() -> None:
-    """Each call returns the first customer whose number is above `after`."""
+    """Each call returns the first customer whose number is above the number in the request."""
     first = let_in(0.0, 0.0, 0.0).first
     numbers = [first - 1]
     for _ in range(3):
@@ -126,7 +126,7 @@ def test_all_waiting_calls_return_the_customer() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_impossible_patience_is_refused_with_the_range() -> None:
-    """For an impossible patience, the error message contains the allowed range."""
+    """If the waiting time in the request is impossible, the error message contains the allowed range."""
     words = "cannot process request: patience: a wait of .* s is not possible; expected seconds, from 0 to 60"
     for patience in (-1.0, math.nan, math.inf, 61.0):
         with pytest.raises(rospy.ServiceException, match=words):
@@ -271,7 +271,7 @@ def test_cashier_limits_its_rate_of_calls(kernel: Kernel, answer: str, settings:
     ],
 )
 def test_cashier_with_a_wrong_parameter_ends_with_a_message(settings: list[str], words: str) -> None:
-    """For a wrong parameter, the program prints the allowed values, and its exit status is 1."""
+    """If a parameter is wrong, the program prints the allowed values, and its exit status is 1."""
     done = program("cashier", *settings)
     assert done.returncode == 1
     assert words in done.stderr

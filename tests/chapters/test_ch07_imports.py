@@ -24,15 +24,15 @@ SCRIPT = Program("scripts/server.py")
 
 
 class Replying:
-    """A fake command folder that returns the same result for each command."""
+    """A fake folder in which each command returns the same result."""
 
     def __init__(self, reply: Reply) -> None:
         self.reply = reply
 
     def command(self, *_argv: str, within: float, worded: str) -> Finished:
-        """Return `reply` as the result of a command.
+        """Return the given reply as the result of a command.
 
-        The times in `reply` are fractions of `within`, the time limit in s.
+        In the reply, each time is a fraction of the time limit, which is in s.
         """
         times = {name: value * within for name, value in self.reply.items() if isinstance(value, float)}
         assert worded == "import server.py"
@@ -42,7 +42,7 @@ class Replying:
 def imported(**reply: float | int | str | None) -> CheckContext:
     """Check that a script can be imported; return the check's context.
 
-    No script runs: the check receives `reply` as the result of the import.
+    No script runs: the check receives the given reply as the result of the import.
     """
     context = CheckContext("07.4", cast("Channel", None), cast("Node", None), 1)
     folder = cast("Folder", Replying(dict(reply)))

@@ -54,7 +54,7 @@ def test_sum_outside_of_int64_is_refused(a: int, b: int) -> None:
 
 @pytest.mark.parametrize("words", [[], ["1"], ["1", "2", "3"], ["1", "2.5"], ["1", str(LARGEST + 1)]])
 def test_adder_client_with_wrong_arguments(words: list[str]) -> None:
-    """For wrong arguments, the client prints its usage, and its exit status is 2."""
+    """If the arguments are wrong, the client prints its usage, and its exit status is 2."""
     done = program("add_two_ints_client", *words)
     assert done.returncode == 2
     assert done.stderr.startswith("usage: add_two_ints_client A B")
@@ -74,7 +74,7 @@ def test_client_of_another_definition_is_refused(adder: NodeProcess) -> None:
 
 
 def test_client_of_another_definition_with_wrong_arguments() -> None:
-    """For wrong arguments, the client with another service definition prints its own usage."""
+    """If the arguments are wrong, the client with another service definition prints its own usage."""
     done = program("add_two_floats_client", "one", "2")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: add_two_floats_client A B")
@@ -162,7 +162,7 @@ def trigger(name: str) -> tuple[bool, str]:
 
 @pytest.mark.usefixtures("switch")
 def test_set_moves_the_switch() -> None:
-    """A call moves the closed switch to the requested position, and the message contains the position."""
+    """A call moves the switch to the requested position, and the response's message contains the position."""
     assert trigger("report") == (True, "closed")
     assert move(True) == (True, "opened")
     assert trigger("report") == (True, "open")

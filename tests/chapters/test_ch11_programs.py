@@ -25,7 +25,7 @@ def server() -> Iterator[NodeProcess]:
 
 
 def added(session: str, amount: int) -> tuple[int, int]:
-    """Add `amount` to a session. Return the session's total and its number of calls."""
+    """Add an amount to a session. Return the session's total and its number of calls."""
     answer = BoundedProxy("/add_up", KIND, headers={"session": session}).call(amount)
     return answer.total, answer.calls
 
@@ -76,7 +76,7 @@ def test_client_without_a_server_or_with_wrong_arguments() -> None:
 
 
 def test_echo_sends_back_every_byte(master: PrivateMaster) -> None:
-    """The program stores its port in a parameter, and sends back every byte."""
+    """The TCP echo stores its port in a parameter, and sends back every byte."""
     with NodeProcess(["rosrun", "course_pkg", "tcp_echo"]) as echo:
         echo.wait_for_output("Echoing")
         port = eventually(lambda: MasterClient(master.uri).get_param("/tcp_echo/port"))

@@ -28,7 +28,7 @@ LAUNCH = ("course_pkg", "robot_cashier.launch")
 
 
 def run(name: str, service: str) -> NodeProcess:
-    """Start a program, wait until `service` is available, and return the process."""
+    """Start a program, wait until its service is available, and return the process."""
     process = NodeProcess(["rosrun", "course_pkg", name])
     process.wait_for_service(service)
     return process
@@ -64,7 +64,7 @@ def till() -> Iterator[NodeProcess]:
 
 
 def let_in(*after: float, stay: float = FOR_GOOD) -> LetInResponse:
-    """Let customers in."""
+    """Let customers enter the shop."""
     return BoundedProxy("/let_in", LetIn)(after=after, stay=stay)
 
 
@@ -102,7 +102,7 @@ def test_a_call_ends_when_its_patience_is_over() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_impossible_patience_is_refused() -> None:
-    """For an impossible patience, the error message contains the word "patience"."""
+    """If the waiting time is impossible, the error message contains the field's name "patience"."""
     for patience in (-0.1, 60.1, float("nan"), float("inf")):
         with pytest.raises(rospy.ServiceException, match="cannot process request: patience"):
             detect(patience)

@@ -62,7 +62,7 @@ def call(service: str, args: JSON, **more: str) -> dict[str, JSON]:
 def test_reply_to_a_call_contains_the_response(
     line: websocket.WebSocket, geometry: NodeProcess, args: object
 ) -> None:
-    """The reply contains the service, the id of the call, the response, and the result true."""
+    """The reply to a service call contains the service, the call's id, the response, and the result true."""
     assert said(line, call("/getGeometry", args, id="mine")) == {
         "op": "service_response",
         "id": "mine",
@@ -188,7 +188,7 @@ def test_cancelled_goal_returns_the_number_so_far(asking: Kernel) -> None:
     "goal", ["things=-1, seconds=0.1", "things=1, seconds=-1", "things=1, seconds=float('nan')"]
 )
 def test_impossible_goal_is_aborted_with_a_message(asking: Kernel, goal: str) -> None:
-    """An impossible goal is aborted with an error message."""
+    """The robot aborts an impossible goal, and the result contains an error message."""
     aborted, words, after = asking.run(f"""
         carry_out(FetchGoal({goal}))
         result = [client.get_state() == GoalStatus.ABORTED, client.get_goal_status_text()]

@@ -62,7 +62,7 @@ def test_hint_of_the_first_matching_condition() -> None:
 def test_assertion_is_reported_once_and_may_fail_later() -> None:
     """If a check uses an assertion several times, the report contains the assertion once.
 
-    An assertion that fails once fails for the whole check.
+    If an assertion fails once, it counts as failed for the whole check.
     """
     results = Results()
     results.passes("a")

@@ -11,7 +11,7 @@ from course_pkg.checking.plain_values import Value
 
 
 def made(source: str, name: str = "it", *, keep_source: bool = True) -> Value:
-    """Return the object that a cell with `source` defines."""
+    """Return the object that a cell with the given source defines."""
     file = f"<cell {hash(source)} {keep_source}>"
     if keep_source:
         linecache.cache[file] = (len(source), None, source.splitlines(keepends=True), file)
@@ -52,7 +52,7 @@ def test_stubs(source: str) -> None:
     ],
 )
 def test_attempts(source: str) -> None:
-    """A student's code is an attempt, even if the code does nothing."""
+    """Code that the student has written counts as an attempt, even if it does nothing."""
     assert not is_blank(made(source))
 
 

@@ -82,7 +82,7 @@ def record(state: Path) -> dict[str, Json]:
 
 
 def test_pass_has_the_same_text_each_time_and_is_recorded(master: PrivateMaster, tmp_path: Path) -> None:
-    """Two passes print the same text, and the record contains the points."""
+    """Two passed checks print the same text, and the record contains the points."""
     out = output(SERVE + '    print(check("05.1"))\n    print(check("05.1"))', tmp_path)
     first, second = out[: len(out) // 2], out[len(out) // 2 :]
     assert first == second
@@ -120,12 +120,12 @@ def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
     ],
 )
 def test_report_says_what_to_do_first(tmp_path: Path, cells: str, words: str) -> None:
-    """The report says what the student should do next."""
+    """If a check cannot run, the report says what the student should do next."""
     assert words in output(cells, tmp_path)
 
 
 def test_the_topics_of_a_check_end_with_it(master: PrivateMaster, tmp_path: Path) -> None:
-    """After a check, the subscriptions that the student's function made are removed."""
+    """After a check, the subscriptions that the student's function made no longer exist."""
     cells = """
     import time
     from std_msgs.msg import UInt32

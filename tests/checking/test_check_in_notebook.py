@@ -156,7 +156,7 @@ def test_errors_of_a_handler_are_in_the_report(notebook: NotebookKernel) -> None
 
 
 def test_check_leaves_nothing(notebook: NotebookKernel) -> None:
-    """After a check, the nodes, topics and services that the check created are removed."""
+    """After a check, the nodes, topics and services that the check created no longer exist."""
     notebook.run(SWITCH, "class")
     notebook.run("switch = Switch()", "object")
     shown = notebook.run("passed = check('05.4')", "check")

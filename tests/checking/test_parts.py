@@ -88,7 +88,7 @@ def test_imports_are_followed_in_each_form(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_tests_of_a_chapter_depend_on_what_it_imports() -> None:
-    """After a change of chapter 07, `--changed` runs the tests of chapter 14."""
+    """After a change of chapter 07, `course test --changed` runs the tests of chapter 14."""
     names = {Path(path).name[:4] for path in chapter_paths("14")}
     assert names == {"ch07", "ch09", "ch14", "14_d"}
     assert {Path(path).name[:4] for path in chapter_paths("05")} == {"ch05", "05_w"}

@@ -38,7 +38,7 @@ class Drawer:
 
     @remote
     def add(self, count: int, *, twice: bool = False) -> int:
-        """Add `count` to `things`, or add it two times if `twice` is true; return the sum."""
+        """Add a number to the sum, or add it two times if `twice` is true; return the sum."""
         self.threads.add(threading.get_ident())
         self.things += count * (1 + twice)
         return self.things
@@ -100,7 +100,7 @@ def drawer() -> Drawer:
 
 
 def proxy(placed: PlacedObjects, item: object) -> Value:
-    """Return a proxy for `item`."""
+    """Return a proxy for an object that the course has placed."""
     where = placed.place(item)
     return ObjectProxies(int(str(where["port"])), str(where["key"])).proxy(dict(where["item"]))  # type: ignore[arg-type]
 
@@ -212,7 +212,7 @@ def test_each_thread_has_its_own_thread_in_the_check_runner(placed: PlacedObject
 def test_a_malformed_line_ends_its_connection_only(
     placed: PlacedObjects, drawer: Drawer, line: bytes
 ) -> None:
-    """An invalid line closes only its own connection."""
+    """An invalid line from a client closes only the connection of this client."""
     other = proxy(placed, drawer)
     with connect(placed) as sock:
         sock.sendall(line)

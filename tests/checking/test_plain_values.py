@@ -61,7 +61,7 @@ def test_number_with_a_wrong_eq_becomes_a_plain_number() -> None:
 
 
 def test_endless_values_are_cut() -> None:
-    """A long string is cut off, and so is a list that contains itself."""
+    """The conversion shortens a long string, and a list that contains itself."""
     endless: list[Value] = []
     endless.append(endless)
     assert "nested too deeply" in json.dumps(plain(endless))

@@ -49,7 +49,7 @@ def record(tmp_path: Path) -> StudentRecord:
 
 
 def test_a_pass_stays_a_pass(record: StudentRecord) -> None:
-    """If a later check fails, the record still contains the pass."""
+    """If a check fails after an earlier pass, the record still contains the pass."""
     assert record.store("05.1", FAILED) == ""
     first, _ = record.read(["05.1"])
     assert (first["05.1"].verdict, first["05.1"].passed, first["05.1"].checks) == ("not yet", "", 1)

@@ -42,7 +42,7 @@ def test_failure_contains_call_expected_and_actual_value_and_hint() -> None:
 
 
 def test_a_failure_starts_with_what_is_right_and_then_names_one_thing_to_fix() -> None:
-    """The report on a failure shows the assertions that hold, then what to correct, and then the goal."""
+    """The report on a failure shows the assertions that passed, then what to correct, and then the goal."""
     lines = str(FAILED).splitlines()
     assert lines[:4] == [
         "05.1 not yet: 0 of 2 points",

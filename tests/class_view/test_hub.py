@@ -73,7 +73,7 @@ def url(tmp_path: Path) -> Iterator[str]:
 
 
 def login(url: str, user: str, state: str = "") -> tuple[int, dict[str, str]]:
-    """Log in at the hub as `user`, and follow the redirect to the class view."""
+    """Log in at the hub as a user, and follow the redirect to the class view."""
     status, _, headers = ask(f"{url}/")
     address = urlsplit(headers["Location"])
     query = parse_qs(address.query)
@@ -95,7 +95,7 @@ def test_the_hub_decides_whose_token_it_is(url: str) -> None:
 def test_only_a_teacher_of_the_hub_opens_the_page(url: str) -> None:
     """The hub logs users in, and only users with the teacher's scope can open the page.
 
-    A forged login is refused.
+    The class view refuses a forged login.
     """
     status, headers = login(url, "teacher")
     cookie = headers["Set-Cookie"].partition(";")[0]
@@ -117,5 +117,5 @@ def test_a_hub_that_does_not_answer_is_not_a_refusal(tmp_path: Path) -> None:
 
 
 def test_without_a_hub_there_is_no_hub() -> None:
-    """In a user's server, the variables of a hub's service are missing, and HubService.of() returns None."""
+    """In a user's server, the hub's variables for services are missing, so HubService.of() returns None."""
     assert HubService.of({"JUPYTERHUB_API_TOKEN": "x", "JUPYTERHUB_API_URL": "x"}) is None

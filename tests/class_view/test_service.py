@@ -32,7 +32,7 @@ def test_a_student_writes_only_own_results(tmp_path: Path) -> None:
             ["s02", "05.2", 1],
         ]
         assert seen["hints"] == [["05.1", "Multiply.", 1, 1]]
-    with serving(tmp_path) as url:  # after a restart
+    with serving(tmp_path) as url:  # The service starts again with the same folder.
         assert changes(url, enter(url))["cells"] == seen["cells"]
 
 

@@ -47,7 +47,7 @@ def test_each_fault_prints_something_or_hangs() -> None:
 
 @pytest.mark.parametrize("shows", list(_params()))
 def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, shows: Shows) -> None:
-    """Each fault has the symptom in the table, and `explain` explains the symptom."""
+    """Each fault causes the symptom that the table contains, and `explain` explains this symptom."""
     assert master.uri
     before = Surroundings()
     with caused(shows.fault) as stage:

@@ -34,7 +34,7 @@ def nodes(master: PrivateMaster) -> list[str]:
 
 @pytest.mark.parametrize("name", ["stale", "stopped", "hung_master", "two_providers"])
 def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, name: str) -> None:
-    """If the kernel that caused a fault is killed, the fault's processes, nodes and folder are removed."""
+    """If the kernel that caused a fault is killed, the fault's processes, nodes and folder disappear."""
     (folder,) = kernel.run(CAUSE.format(names=[name]))
     pids = descendants(kernel.pid)
     assert pids

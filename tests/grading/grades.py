@@ -50,7 +50,7 @@ def report(check: str, verdict: Verdict = Verdict.PASSED, **more: object) -> Rep
 
 
 def class_of(count: int, chapters: tuple[str, ...] = ("05",), seed: int = 5) -> list[Grade]:
-    """Return the grades of `count` students, who are called s01, s02 and so on."""
+    """Return the grades of a class; the students are called s01, s02 and so on."""
     draw = random.Random(seed)  # noqa: S311 -- the class is the same in each run
     made = []
     for number in range(1, count + 1):

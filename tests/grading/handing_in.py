@@ -29,7 +29,7 @@ def raw(notebook: Notebook) -> bytes:
 
 
 def folder(root: Path, files: Mapping[str, bytes]) -> Path:
-    """Write `files`, which maps paths to contents, into the folder `root`."""
+    """Write files into a folder; `files` maps their paths to their contents."""
     for path, content in files.items():
         target = root / path
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -38,7 +38,7 @@ def folder(root: Path, files: Mapping[str, bytes]) -> Path:
 
 
 def zipped(path: Path, files: Mapping[str, bytes], **changes: int | str | bytes) -> Path:
-    """Write `files` into a zip. `changes` contains attributes that are set in each ZipInfo."""
+    """Write files into a zip file. `changes` contains attributes that are set in each ZipInfo."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():
             member = zipfile.ZipInfo("placeholder", (2026, 1, 1, 0, 0, 0))

@@ -16,7 +16,7 @@ NO_SERVER = "#!/usr/bin/env python3\nimport rospy\n\nrospy.init_node('SERVER_NOD
 
 
 def my_geometry(changes: Mapping[str, str] | None = None) -> dict[str, bytes]:
-    """Return the package my_geometry of chapter 07's solution. `changes` maps paths to new contents."""
+    """Return the package my_geometry of chapter 07's solution. The argument maps paths to new contents."""
     files = dict(MY_GEOMETRY.files)
     for cell in code_cells(reference("07")):
         first, _, text = cell["source"].partition("\n")
@@ -26,7 +26,7 @@ def my_geometry(changes: Mapping[str, str] | None = None) -> dict[str, bytes]:
 
 
 def write_package(root: Path, place: str, files: Mapping[str, bytes]) -> Path:
-    """Write a package to `place`, such as "s01/my_geometry", and return the package's folder."""
+    """Write a package to a path such as "s01/my_geometry", and return the package's folder."""
     folder(root, {f"{place}/{path}": content for path, content in files.items()})
     for path in filter(is_script, files):
         (root / place / path).chmod(0o755)

@@ -33,7 +33,7 @@ def test_harmful_characters_are_removed(given: str, kept: str) -> None:
     "given", ["x" * 10_000_000, "\n" * 100_000, "\x1b[" * 100_000, "\x1b]" * 100_000 + "y"]
 )
 def test_length_is_bounded(given: str) -> None:
-    """A long text is cut, and a second cleaning does not change the result."""
+    """The function shortens a long text, and a second cleaning does not change the result."""
     kept = clean.text(given)
     assert len(kept) <= clean.LONG
     assert kept.count("\n") <= clean.LINES
@@ -41,7 +41,7 @@ def test_length_is_bounded(given: str) -> None:
 
 
 def test_cut_text_has_a_mark() -> None:
-    """If a text was cut, it ends with "… (cut)"."""
+    """A shortened text ends with "… (cut)"."""
     assert clean.text("x" * 5000).endswith("… (cut)")
 
 
@@ -64,7 +64,7 @@ def test_markup_is_text() -> None:
 
 
 def test_data_of_any_shape_is_cleaned() -> None:
-    """The strings and keys of nested lists and dicts are cleaned, and long lists are cut."""
+    """The function cleans the strings and keys of nested lists and dicts, and shortens long lists."""
     given = {"a\x1b[1m": ["\x00x", 1.5, None, True, {"k": "\ud800"}], "n": list(range(5000))}
     cleaned = clean.record(given)
     assert cleaned["a"] == ["x", 1.5, None, True, {"k": "\ufffd"}]
@@ -73,7 +73,7 @@ def test_data_of_any_shape_is_cleaned() -> None:
 
 @pytest.mark.parametrize("name", ["s01", "anna.b-c_1", "0"])
 def test_a_plain_name_stays(name: str) -> None:
-    """A usual student name is used as the file name without a change."""
+    """If a student's name contains only usual characters, it is also the name of the student's file."""
     assert clean.file_name(name) == name
 
 

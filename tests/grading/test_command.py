@@ -207,7 +207,7 @@ def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
 def test_wrong_options_lead_to_one_message(
     submissions: Path, tmp_path: Path, words: list[str], said: str
 ) -> None:
-    """For wrong options, the error message contains no traceback and says what to do next."""
+    """If the options are wrong, the error message has no traceback and says what to do next."""
     given = [word.format(here=submissions) for word in words]
     command = [COURSE, "grade", *given, *([] if "--out" in given else ["--out", tmp_path / "out"])]
     done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)

@@ -56,7 +56,7 @@ def worker() -> Iterator[SandboxWorker]:
 
 
 def graded(worker: SandboxWorker, path: Path, chapter: str = "05") -> Grade:
-    """Return the grade of the notebook at `path`."""
+    """Return the grade of a notebook."""
     submission = Submission("s01", chapter, path.read_bytes(), path.name)
     return mark(submission, plan(chapter), worker.run, "secret", "key", sandboxed=True)
 
@@ -70,7 +70,7 @@ def graded(worker: SandboxWorker, path: Path, chapter: str = "05") -> Grade:
 )
 @pytest.mark.timeout(300)
 def test_the_solution_earns_full_marks(worker: SandboxWorker, tmp_path: Path, chapter: str) -> None:
-    """The solution of a chapter passes every part in the sandbox."""
+    """In the sandbox, the solution of a chapter passes every part."""
     grade = graded(worker, hand_in(tmp_path, "s01", chapter), chapter)
     assert {report.check: report.verdict for report in grade.reports} == {
         each.part.check: Verdict.PASSED for each in plan(chapter).parts
@@ -161,7 +161,7 @@ def test_answer_may_use_cells_above(worker: SandboxWorker, tmp_path: Path) -> No
 
 
 def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
-    """If an exercise was deleted, only the points of this exercise are lost."""
+    """If a student has deleted an exercise, the student loses only the points of this exercise."""
     path = hand_in(tmp_path, "s01")
     notebook = json.loads(path.read_text())
     gone = next(cell for cell in code_cells(notebook) if "def handle_checked" in cell["source"])
@@ -174,7 +174,7 @@ def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
 
 
 def test_what_is_no_notebook_earns_nothing_and_says_why(worker: SandboxWorker, tmp_path: Path) -> None:
-    """For a file that is not a notebook, each part has no points and a note with the reason."""
+    """If a file is not a notebook, its parts get no points, and each part gets a note with the reason."""
     path = tmp_path / "05.ipynb"
     path.write_text("<html>not a notebook</html>")
     grade = graded(worker, path)

@@ -52,7 +52,7 @@ class Jobs:
 
 
 def graded(root: Path, planned: Plan, run: Jobs | SandboxWorker) -> Grade:
-    """Return the grade of the only submission below `root`."""
+    """Return the grade of the only submission in a folder."""
     [submission] = submissions(root)
     work = run.run if isinstance(run, SandboxWorker) else run
     return mark(submission, planned, work, "secret", "key", sandboxed=True)
@@ -80,7 +80,7 @@ def test_package_is_examined_instead_of_the_cells(tmp_path: Path, seven: Plan) -
 
 
 def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
-    """If a file is missing in the package, the cell that writes this file is used."""
+    """If a file is missing in the package, the program runs the cell that writes this file."""
     files = {path: content for path, content in my_geometry().items() if path not in ("README.md", SERVER)}
     hand_in(tmp_path, "s01", "07", answers={"07.7": ""})
     write_package(tmp_path, "s01/my_geometry", files)
@@ -94,7 +94,7 @@ def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
-    """Without a notebook, only the parts that need the package are examined."""
+    """Without a notebook, the program examines only the parts that need the package."""
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
     assert [check for check, each in verdicts(grade).items() if each is Verdict.PASSED] == list(MINE)
@@ -103,7 +103,7 @@ def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
-    """If the notebook cannot be read, the package is still examined."""
+    """If the program cannot read the notebook, it still examines the package."""
     hand_in(tmp_path, "s01", "07").write_text("{")
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
@@ -123,7 +123,7 @@ def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("path", ["../x", "/x", "a/../../x", "a//x", "./x", "", "a/" * 300 + "x"])
 def test_a_path_that_leads_out_is_not_written(tmp_path: Path, path: str) -> None:
-    """A file whose path leads out of the folder is not written."""
+    """The program does not write a file whose path leads out of the folder."""
     with pytest.raises(ValueError, match="is not the path of a file"):
         work_file(path, b"x").write(tmp_path / "work")
     assert os.listdir(tmp_path) == []
@@ -141,7 +141,7 @@ def test_the_solution_as_a_package_earns_full_marks(
 
 
 def only_part(planned: Plan, check: str) -> Plan:
-    """Return a plan that contains only the part `check`."""
+    """Return a plan that contains only one part."""
     return Plan(
         planned.chapter, planned.rebuilder, tuple(each for each in planned.parts if each.part.check == check)
     )

@@ -49,7 +49,7 @@ class Outline(HTMLParser):
         self.tags.append((tag, dict(attrs)))
 
     def handle_endtag(self, tag: str) -> None:
-        """Assert that the last open tag is closed."""
+        """Assert that this end tag closes the last open tag."""
         if not self._open or self._open.pop() != tag:
             self.wrong.append(tag)
 
@@ -131,7 +131,7 @@ def test_reports_from_records(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"student": "s01"}', '"x"'])
 def test_invalid_record(tmp_path: Path, content: str) -> None:
-    """For an invalid record, the error message contains the file name, but not the student's name."""
+    """If a record is invalid, the error message contains the file name, but not the student's name."""
     path = record_path(tmp_path, "s01", "05")
     path.parent.mkdir(parents=True)
     path.write_text(content)
@@ -285,7 +285,7 @@ def test_empty_class_and_files_without_a_student(tmp_path: Path) -> None:
 
 
 def test_students_who_need_attention() -> None:
-    """The list of students who need help contains students with a problem or no points, but no late ones."""
+    """A student with a problem or without points needs help; a student who is only late does not."""
     empty = Grade("s05", "05", (report("05.1", Verdict.FAILED),))
     book = Book([*_two(), refused("s03"), refused("s04", "06"), empty])
     assert attention(book, "s01") == []
@@ -414,7 +414,7 @@ def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
 
 
 def test_long_texts_are_cut(tmp_path: Path) -> None:
-    """Long texts in a submission are cut in the reports."""
+    """The reports shorten long texts from a submission."""
     flood = report("05.1", Verdict.FAILED, printed=NASTY * 100_000, note="x" * 1_000_000)
     write_reports([Grade("s01", "05", (flood,), notes=("y" * 1_000_000,))], tmp_path)
     assert max(path.stat().st_size for path in _files(tmp_path)) < 60_000

@@ -44,13 +44,13 @@ def test_a_missing_file_is_named(checkout: Path, missing: str) -> None:
 
 
 def test_many_missing_files_are_one_message(tmp_path: Path) -> None:
-    """The error message lists three missing files, and the number of all other missing files."""
+    """If many solutions are missing, the error message lists three files and counts the other files."""
     with pytest.raises(GradingError, match=r"00_start_the_graph\.ipynb.* and 31 more\. "):
         require_references(root=tmp_path)
 
 
 def test_no_submission_is_read_without_solutions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without solutions, both commands print the error message and write no grades."""
+    """Without solutions, `course grade` and `course grade-one` raise an error and write no grades."""
     monkeypatch.setattr("course_pkg.__file__", str(tmp_path / "course_pkg" / "__init__.py"))
     with pytest.raises(GradingError, match="Nothing was graded"):
         grade(Options(tmp_path, tmp_path / "out"))

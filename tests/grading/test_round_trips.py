@@ -51,7 +51,7 @@ def notebook() -> bytes:
 
 
 def _graded(source: Path, lists: Lists, out: Path) -> tuple[list[Grade], ClassList]:
-    """Grade the submissions in `source`. Jane Doe gets 7 of 9 points, and all other students get 9 points."""
+    """Grade all submissions in a folder. Jane Doe gets 7 of 9 points, and all other students get 9 points."""
     found = submissions(source)
     right = [report(check) for check in GOALS if check.startswith("05")]
     wrong = [report("05.1", Verdict.FAILED), *right[1:]]
@@ -182,7 +182,7 @@ def test_moodle_with_a_roster(tmp_path: Path, notebook: bytes) -> None:
 
 
 def test_a_worksheet_without_a_maximum_grade_and_without_feedback(tmp_path: Path, notebook: bytes) -> None:
-    """The terminal says that the points are not scaled, and how to upload feedback."""
+    """The output in the terminal says that the points are not scaled, and how to upload feedback."""
     source = folder(tmp_path / "in", {f"Participant_101_assignsubmission_file_/{NAMES['05']}": notebook})
     lists = read_lists(None, _write(tmp_path / "sheet.csv", ANONYMOUS))
     _, found = _graded(source, lists, tmp_path / "out")
@@ -304,7 +304,7 @@ def test_an_id_that_is_no_number(tmp_path: Path) -> None:
 
 
 def test_a_roster_can_do_no_harm(tmp_path: Path) -> None:
-    """Markup, formulas and control characters from a roster are shown as text."""
+    """The files show markup, formulas and control characters from a roster as text."""
     cells = ["<script>alert(1)</script>", "=cmd()", "\x1b[31mred\u202e", "@sum"]
     path = tmp_path / "roster.csv"
     with path.open("w", newline="") as file:

@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def make_release(out: Path, path: str = "", chapters: tuple[str, ...] = ()) -> Path:
-    """Run `course release` into the folder `out`, and return the folder."""
+    """Run `course release`, and return the folder into which it has written the release."""
     assert release(Options(out, path, chapters), NO_COMMANDS) == 0
     return out
 
@@ -27,7 +27,7 @@ def files_of(folder: Path) -> dict[str, bytes]:
 
 
 def git(folder: Path, *arguments: str) -> str:
-    """Run git in `folder`, and return its output."""
+    """Run git in a folder, and return its output."""
     command = ["git", "-C", str(folder), *arguments]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 

@@ -55,7 +55,7 @@ def add_home(homes: Path, student: str, files: dict[str, bytes], course: str = "
 
 
 def give(path: Path, uid: int) -> None:
-    """Change the owner of all files below `path`, if this process has the permission."""
+    """Change the owner of all files in a folder, if this process has the permission."""
     for each in [path, *path.rglob("*")]:
         if ROOT:
             os.chown(each, uid, uid, follow_symlinks=False)
@@ -83,7 +83,7 @@ def times(out: Path) -> list[list[str]]:
 def test_work_is_where_the_grader_looks(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Work is stored in a folder for each student, and students without work are listed."""
+    """The command stores each student's work in a separate folder, and lists the students without work."""
     notebook = raw(handed_out("05"))
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": notebook, **packaged(), "notebooks/own.ipynb": b"{}"})
     add_home(homes, "ben", {NOTEBOOK: notebook})  # This student has moved the notebook.
@@ -128,7 +128,7 @@ def test_the_command_line(homes: Path, tmp_path: Path) -> None:
 
 
 def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Path, tmp_path: Path) -> None:
-    """New notebooks and packages replace the old notebooks and packages, and other chapters do not change."""
+    """A later collection replaces old notebooks and packages, and does not change other chapters."""
     home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1", **packaged()})
     run(homes, tmp_path / "out")
     (home / "ros-course" / "notebooks" / NOTEBOOK).write_bytes(b"2")
@@ -168,7 +168,7 @@ def home_of(homes: Path, student: str) -> Home:
 
 @pytest.mark.parametrize("place", ["ros-course", "ros-course/notebooks", f"ros-course/notebooks/{NOTEBOOK}"])
 def test_no_link_is_followed(homes: Path, place: str) -> None:
-    """If a link is in the place of a folder or a notebook, the link is reported, but not followed."""
+    """If a link replaces a folder or a notebook, the command reports the link and does not follow it."""
     add_home(homes, "other", {f"notebooks/{NOTEBOOK}": b"secret"})
     link = homes / "anna" / place
     link.parent.mkdir(parents=True)
@@ -181,7 +181,7 @@ def test_no_link_is_followed(homes: Path, place: str) -> None:
 
 
 def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None:
-    """A link in a package and a link to a package are reported and not collected."""
+    """The command reports a link in a package and a link to a package, and does not collect them."""
     home = add_home(homes, "anna", packaged())
     sources = home / "ros-course" / "workspace" / "src"
     (sources / "my_geometry" / "passwords").symlink_to("/etc/passwd")
@@ -202,7 +202,7 @@ def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None
 def test_pipes_large_files_and_large_packages_are_left_out(
     homes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Named pipes, large notebooks and large packages are not collected."""
+    """The command does not collect named pipes, large notebooks and large packages."""
     monkeypatch.setattr("course_pkg.grading.intake.archive.LARGEST", 1 << 20)
     home = add_home(
         homes, "anna", {"notebooks/06_write_a_client.ipynb": b"x" * ((1 << 20) + 1), **packaged()}
@@ -221,7 +221,7 @@ def test_pipes_large_files_and_large_packages_are_left_out(
 
 
 def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a home folder does not respond within the time limit, the folder is reported."""
+    """If a home folder does not respond within the time limit, the command reports the folder."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: signal.pause())
     [home] = homes_in(homes)
@@ -230,7 +230,7 @@ def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytes
 
 
 def test_a_name_that_leads_elsewhere_is_refused(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A path that leads out of the home folder is refused."""
+    """The command refuses a path that leads out of the home folder."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     file = WorkFile("../../ben/05_write_a_server.ipynb", b"", 0, 0)
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: iter([file]))
@@ -243,7 +243,7 @@ def test_a_name_that_leads_elsewhere_is_refused(homes: Path, monkeypatch: pytest
 def test_a_time_that_was_set_back_is_listed(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """If a student has set back the time of a file, the file is reported."""
+    """If a student has changed the time of a file to an earlier time, the command reports the file."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     home = add_home(homes, "ben", {f"notebooks/{NOTEBOOK}": b"1"})
     os.utime(home / "ros-course" / "notebooks" / NOTEBOOK)
@@ -263,7 +263,7 @@ def test_a_time_that_is_no_date_does_no_harm(homes: Path, tmp_path: Path) -> Non
 
 
 def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """If no student has any work, the command returns 1, and a message asks to check the folder's name."""
+    """If no student has any work, the command returns 1 and asks for a check of the folder's name."""
     add_home(homes, "anna", {}, "other")
     assert run(homes, tmp_path / "out") == 1
     assert "Check that ros-course is the course's folder in each home folder." in capsys.readouterr().out
@@ -279,7 +279,7 @@ def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path
 
 @pytest.mark.parametrize("folder", ["/home/anna/ros-course", "../ben", "."])
 def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Path) -> None:
-    """An absolute path, or a path that leads out of the home folder, is refused."""
+    """The command refuses an absolute path, and a path that leads out of the home folder."""
     with pytest.raises(HandoutError, match="Give the folder's path below the home folder"):
         collect(Options(folder, tmp_path / "out", homes))
 
@@ -290,7 +290,7 @@ def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Pa
 def test_a_list_of_students(
     text: str, homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Only work of listed students is collected, and a listed student without a home folder is reported."""
+    """The command collects only work of listed students, and reports a student without a home folder."""
     (tmp_path / "students").write_text(text)
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     add_home(homes, "teacher", {f"notebooks/{NOTEBOOK}": b"1"})
@@ -310,7 +310,7 @@ def test_a_list_of_students(
     ],
 )
 def test_a_list_that_cannot_be_used_is_refused(text: str, said: str, tmp_path: Path) -> None:
-    """For a wrong list, the error message contains the line number, but no student's name."""
+    """If the list of students is wrong, the error message contains the line number, but no student's name."""
     path = tmp_path / "students.csv"
     path.write_text(text, "utf-8", "surrogateescape")
     with pytest.raises(HandoutError, match=said):

@@ -8,7 +8,7 @@ from course_pkg.cli import parse
 
 
 def test_chapters_have_two_digits() -> None:
-    """For both commands, `--chapters 5, 6` selects the chapters 05 and 06."""
+    """`course release` and `course collect` accept `--chapters 5, 6` for the chapters 05 and 06."""
     assert parse(["release", "out", "--chapters", "5, 6"]).chapters == ("05", "06")
     assert parse(["collect", "ros-course", "out", "--chapters", "5"]).chapters == ("05",)
 

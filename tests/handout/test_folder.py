@@ -57,7 +57,7 @@ def test_an_interrupted_release_is_completed(tmp_path: Path) -> None:
 
 
 def test_other_files_of_the_folder_stay(tmp_path: Path) -> None:
-    """An instructor's own files are neither removed nor committed."""
+    """A release neither removes nor commits an instructor's own files."""
     folder = tmp_path / "out"
     write(folder, a="1")
     (folder / "syllabus.md").write_text("Week 1")
@@ -67,7 +67,7 @@ def test_other_files_of_the_folder_stay(tmp_path: Path) -> None:
 
 
 def test_a_folder_that_no_release_made_is_refused(tmp_path: Path) -> None:
-    """A folder with other files is refused and does not change."""
+    """A release refuses a folder with other files, and does not change this folder."""
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("")
     with pytest.raises(HandoutError, match=r"did not create it\. Give a new or an empty"):
@@ -92,13 +92,13 @@ def test_changes_by_hand_are_not_overwritten(tmp_path: Path) -> None:
 
 
 def test_a_folder_inside_the_course_is_refused() -> None:
-    """A release into a folder inside the checkout is refused."""
+    """A release into a folder inside the checkout raises an error."""
     with pytest.raises(HandoutError, match="Give a folder outside"):
         refuse_inside(ROOT / "out", ROOT)
 
 
 def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
-    """Only the zip of an earlier release is overwritten."""
+    """A release overwrites a zip file only if this file is the zip of an earlier release."""
     folder = tmp_path / "out"
     path = zip_path(folder)
     write_zip(path, "out", files(a="1"))
@@ -195,7 +195,7 @@ def test_the_link_for_nbgitpuller() -> None:
     ("hub", "repository"), [("hub.example.edu", REPOSITORY), (HUB, "git@git.example.edu:a/b")]
 )
 def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository: str) -> None:
-    """For a wrong URL, the error message contains the option, and says that a URL begins with https://."""
+    """If a URL is wrong, the error message contains the option, and says that a URL begins with https://."""
     with pytest.raises(HandoutError, match=r"--(hub|repository) .* begins with https://"):
         pull_link(hub, repository, "main", "x.ipynb")
 

@@ -18,7 +18,7 @@ from course_pkg.ros import PrivateMaster
 from tests.handout.releases import ROOT, files_of, git, make_release, python_in
 
 SHORT = 8  # A line with fewer characters is too common to identify an answer.
-MOST = 0.8  # Another file must contain at most this fraction of an answer's lines.
+MOST = 0.8  # Another file may contain at most this fraction of an answer's lines.
 # The goal of this part contains the whole file.
 BY_ASSIGNMENT = {"srv/geometry.srv": "07.2", "srv/ServiceExample.srv": "07.8"}
 ANSWER = """
@@ -136,7 +136,7 @@ def test_the_readme_is_for_students(edition: Path) -> None:
     ],
 )
 def test_what_needs_the_solutions_says_so_in_one_message(edition: Path, words: list[str]) -> None:
-    """For a command that needs solutions, the error message contains "students' edition"."""
+    """If a command needs solutions, its error message contains "students' edition"."""
     nowhere = {**os.environ, "XDG_CACHE_HOME": "/proc/nowhere"}
     done = subprocess.run(
         [edition / "course", *words], env=nowhere, capture_output=True, text=True, check=False

@@ -13,13 +13,13 @@ from tests.support import eventually, terminal
 
 
 def passwords(folder: Path) -> dict[str, str]:
-    """Return the one-time passwords of the hub in `folder`; the keys are the users."""
+    """Return the one-time passwords of a hub; the keys are the users."""
     with (folder / "hub" / "private" / "passwords.csv").open(newline="") as file:
         return {row["username"]: row["password"] for row in csv.DictReader(file)}
 
 
 def arguments(folder: Path, students: Sequence[str]) -> list[str]:
-    """Return the arguments of `course` for a hub whose data and home folders are in `folder`."""
+    """Return the arguments of `course` for a hub whose data and home folders are in the given folder."""
     roster = folder / "roster.csv"
     roster.write_text("\n".join(["username", *students]))
     homes = ["--without-accounts", str(folder / "homes")]
@@ -32,8 +32,8 @@ def hub(
 ) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """Run a hub during the `with` block; wait until the hub responds, and yield its process and its address.
 
-    `before` is a command that runs the hub's command, such as `unshare`. Another test may start a hub at the
-    same time, so the port is not one of the usual ports.
+    `before` contains the words of a command that runs the hub's command, such as `unshare`. Another test may
+    start a hub at the same time, so the port is not one of the usual ports.
     """
     port = [] if "--port" in options else ["--port", "0"]
     with running(*arguments(folder, students), *port, *options, before=before) as process:

@@ -22,7 +22,8 @@ class Student:
     def __init__(self, hub: str, name: str, certificate: Path | None = None) -> None:
         self.hub, self.name = hub, name
         self.session = requests.Session()
-        self.session.trust_env = False  # a variable such as REQUESTS_CA_BUNDLE overrides `verify`
+        # An environment variable such as REQUESTS_CA_BUNDLE would override `verify`.
+        self.session.trust_env = False
         self.session.verify = str(certificate) if certificate else True
         self._socket: websocket.WebSocket | None = None
 
@@ -107,14 +108,14 @@ class Student:
             shown += "\n".join(content.get("traceback", []))
 
     def get(self, path: str) -> dict[str, Any]:
-        """Return the JSON at `path` of the student's server."""
+        """Return the JSON that the student's server sends for a GET request."""
         answer = self.session.get(f"{self._server}/{path}", timeout=TIMEOUT)
         assert answer.ok, answer.text
         found: dict[str, Any] = answer.json()
         return found
 
     def post(self, path: str, data: object) -> dict[str, Any]:
-        """Send JSON to `path` of the student's server, and return the JSON of the response."""
+        """Send JSON to the student's server, and return the JSON of the response."""
         headers = {"X-XSRFToken": self._xsrf(f"/user/{self.name}/")}
         answer = self.session.post(f"{self._server}/{path}", json=data, headers=headers, timeout=TIMEOUT)
         assert answer.ok, answer.text

@@ -35,7 +35,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def temporary_folder(folder: Path) -> Path:
-    """Return the folder for temporary files of the hub in `folder`."""
+    """Return the folder for temporary files of a hub."""
     settings = json.loads((folder / "hub" / "private" / "settings.json").read_text())
     return Path(settings["environment"][SCRATCH])
 
@@ -81,7 +81,7 @@ def test_passwords_are_for_the_teacher_only(address: str, folder: Path) -> None:
 
 
 def test_a_second_hub_is_refused(address: str, folder: Path) -> None:
-    """Two hubs cannot use the same data."""
+    """Two hubs cannot use the same folder for their data."""
     assert "Another hub" in refusal(*arguments(folder, ["anna"])[1:])
 
 

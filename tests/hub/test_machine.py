@@ -55,7 +55,7 @@ def address(folder: Path) -> Iterator[str]:
 def test_a_server_starts_where_namespaces_are_forbidden(address: str, folder: Path) -> None:
     """The student can work, and the log says that other users can reach the student's nodes.
 
-    Pages are encrypted.
+    The hub's pages are encrypted.
     """
     assert address.startswith("https://")
     with Student(address, "anna", folder / "hub.pem") as anna:
@@ -74,9 +74,9 @@ def test_a_full_disk_is_named_on_the_students_page(address: str, folder: Path) -
 
 
 def test_a_missing_home_is_reported_for_this_student_only() -> None:
-    """An account without a home folder, such as `nobody` on Debian, is reported as a problem.
+    """The program reports an account without a home folder, such as `nobody` on Debian, as a problem.
 
-    The account that runs this test has a home folder, so this account is not reported.
+    The account that runs this test has a home folder, so the program does not report this account.
     """
     missing = next(each for each in pwd.getpwall() if not os.path.exists(each.pw_dir))
     own = pwd.getpwuid(os.getuid()).pw_name

@@ -23,7 +23,7 @@ LIMITS = limits.Limits(memory=300, processes=50)
 
 
 def test_a_password_is_accepted_once(tmp_path: Path) -> None:
-    """A wrong password does not use up the right password, and a new password replaces the old password."""
+    """A wrong password does not make the right password invalid, and a new password replaces the old one."""
     record = Passwords(tmp_path / "passwords.json")
     password = record.issue(["anna"])["anna"]
     assert record.issue(["anna"]) == {}
@@ -50,7 +50,7 @@ def test_an_account_of_the_system_is_refused() -> None:
 
 
 def test_a_missing_or_foreign_home_is_a_problem(tmp_path: Path) -> None:
-    """The returned text contains the reason why the home folder cannot be used."""
+    """If a home folder cannot be used, the returned text contains the reason."""
     assert "does not exist" in accounts.home_problem(tmp_path / "none", os.getuid())
     assert "another user" in accounts.home_problem(tmp_path, os.getuid() + 1)
     assert accounts.home_problem(tmp_path, os.getuid()) == ""
@@ -71,7 +71,7 @@ def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
 
 
 def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
-    """Without control groups, describe() names rlimits, and an allocation above the limit fails."""
+    """Without control groups, describe() mentions rlimits, and an allocation above the limit fails."""
     assert limits.group_of_hub(tmp_path) is None
     assert "rlimits" in limits.describe(LIMITS, None, own_account=True)
     program = "from tests.hub.test_parts import *; limits.set_rlimits(LIMITS, True); bytearray(400 << 20)"
@@ -98,6 +98,34 @@ def test_a_new_release_keeps_the_students_work(tmp_path: Path) -> None:
     pull(str(repository), home)
     assert (home / "notebooks" / "00_a.ipynb").read_text() == "my work\n"
     assert (home / "notebooks" / "01_b.ipynb").read_text() == "new\n"
+
+
+def test_a_release_is_merged_into_a_folder_without_git(tmp_path: Path) -> None:
+    """In a folder that `course lab` made, files of an old release are updated, and the student's are kept."""
+    course, home = tmp_path / "course", tmp_path / "home" / "ros-course"
+    for name in ("notebooks", "figures"):
+        (course / name).mkdir(parents=True)
+    own = home / "notebooks"
+    own.mkdir(parents=True)
+    repository = tmp_path / "released" / "ros-course"
+    for text in ("first release\n", "second release\n"):
+        for name in ("00_a.ipynb", "01_b.ipynb", "02_c.ipynb"):
+            (course / "notebooks" / name).write_text(text)
+        write_repository(Places(course, tmp_path), repository)
+    for name, text in {
+        "00_a.ipynb": "first release\n",
+        "01_b.ipynb": "my work\n",
+        "mine.txt": "mine\n",
+    }.items():
+        (own / name).write_text(text)
+    pull(str(repository), home)
+    texts = {path.name: path.read_text() for path in own.iterdir()}
+    assert texts == {
+        "00_a.ipynb": "second release\n",
+        "01_b.ipynb": "my work\n",
+        "02_c.ipynb": "second release\n",
+        "mine.txt": "mine\n",
+    }
 
 
 def test_the_proxy_is_pinned() -> None:

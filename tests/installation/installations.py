@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def make_version(prefix: Path) -> Path:
-    """Install a version of the course with two chapters below the folder `prefix`; return its folder.
+    """Install a version of the course with two chapters, and return the version's folder.
 
     The catkin workspace of this version is a link to the workspace of the checkout, so tests need no build.
     """
@@ -35,7 +35,7 @@ def make_version(prefix: Path) -> Path:
 
 
 def asked(version: Path, program: str, **variables: str) -> str:
-    """Run the Python code `program` with the package in the folder `version`; return the output."""
+    """Run Python code with the package of one version of the course, and return the output."""
     command = [Places.of().python, "-c", program]
     environment = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "PYTHONPATH": str(version / "course")}
     done = subprocess.run(

@@ -28,7 +28,7 @@ def test_apt_finds_a_package_of_the_bundle(tmp_path: Path) -> None:
 
 
 def test_the_script_is_correct_shell(tmp_path: Path) -> None:
-    """The install script is valid shell, names each package, and contains no internet address."""
+    """The install script is a valid shell script, names each package, and contains no internet address."""
     script = install_script(["python3", "g++"])
     subprocess.run(["sh", "-n"], input=script, text=True, check=True)
     assert "--no-install-recommends python3 g++\n" in script
@@ -36,7 +36,7 @@ def test_the_script_is_correct_shell(tmp_path: Path) -> None:
 
 
 def test_a_folder_with_files_is_refused(tmp_path: Path) -> None:
-    """Nothing is overwritten."""
+    """If the folder for the bundle contains files, the command writes nothing."""
     (tmp_path / "file").write_text("mine")
     with pytest.raises(SetupError, match="is not an empty folder, so nothing was written"):
         write_bundle(tmp_path)

@@ -80,7 +80,7 @@ def test_an_uninstall_waits_for_the_users(prefix: Prefix) -> None:
 
 
 def test_unfit_prefixes_are_refused(tmp_path: Path) -> None:
-    """For an unsuitable prefix, the installer prints one message and changes nothing.
+    """If the prefix is unsuitable, the installer prints one message and changes nothing.
 
     A prefix is unsuitable if it contains a space, or if it contains files or a command of another program.
     """

@@ -65,12 +65,12 @@ def address_of(process: subprocess.Popen[str]) -> str:
 
 
 def below(process: subprocess.Popen[str]) -> list[int]:
-    """Return all descendants of `process`."""
+    """Return all descendants of a process."""
     return descendants(process.pid)
 
 
 def all_gone(pids: list[int]) -> bool:
-    """Wait up to 20 s, and return whether all processes `pids` have exited."""
+    """Wait up to 20 s, and return whether all given processes have exited."""
     return eventually(lambda: not [pid for pid in pids if alive(pid)], timeout=20)
 
 
@@ -84,7 +84,7 @@ def alive(pid: int) -> bool:
 
 
 def having(pattern: bytes, pids: list[int]) -> list[int]:
-    """Return the processes of `pids` whose command line contains `pattern`."""
+    """Return those of the given processes whose command line contains the pattern."""
     found = []
     for pid in pids:
         with suppress(OSError):  # The process may have exited.
@@ -100,7 +100,7 @@ def network_of(pid: int) -> list[str]:
 
 
 def own_namespace(kind: str) -> str:
-    """Return the identifier of a namespace of the current process; `kind` is its kind, such as net."""
+    """Return the identifier of a namespace of the current process; the argument is a type such as net."""
     return os.readlink(f"/proc/self/ns/{kind}")
 
 
@@ -116,7 +116,7 @@ def listening(pids: list[int]) -> set[tuple[str, int]]:
     """Return the IPv4 addresses and ports on which the processes listen, in any network namespace."""
     found = set()
     for pid in pids:
-        with suppress(OSError):  # the process may have ended
+        with suppress(OSError):  # The process may have ended.
             files = {os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir()}
             for line in Path(f"/proc/{pid}/net/tcp").read_text().splitlines()[1:]:
                 words = line.split()

@@ -28,7 +28,7 @@ def home(tmp_path: Path) -> Path:
 
 
 def shell(home: Path, commands: str) -> str:
-    """Type `commands` into an interactive shell, and return the output."""
+    """Type commands into an interactive shell, and return the output."""
     cache = {"XDG_CACHE_HOME": user_environment().get("XDG_CACHE_HOME", str(Path("~/.cache").expanduser()))}
     typed = ["script", "-qec", f"{ROOT / 'course'} run bash", "/dev/null"]
     answer = subprocess.run(

@@ -1,4 +1,4 @@
-"""Tests of `jupyter lab` without `course lab`: it has a master and the same settings as `course lab`."""
+"""Tests of `jupyter lab` without `course lab`: the server has a master and the same settings."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def by_hand(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
 
 
 def environment_of(service: Service, pattern: bytes) -> dict[str, str]:
-    """Return the environment of the server's child process whose command line contains `pattern`."""
+    """Return the environment of the server's child process whose command line contains the pattern."""
     found = eventually(lambda: having(pattern, below(service.process)), READY)
     return psutil.Process(found[0]).environ()
 
@@ -66,7 +66,7 @@ def test_kernels_and_terminals_share_ros_and_a_master(by_hand: Service) -> None:
 
 
 def test_the_settings_are_those_of_course_lab(by_hand: Service) -> None:
-    """The course's own files are hidden, checkpoints are in the cache, and the course's settings are used."""
+    """The file browser hides the course's own files, and JupyterLab uses the course's settings."""
     names = {entry["name"] for entry in by_hand.get("/api/contents")["content"]}
     assert "notebooks" in names
     assert not {"course_pkg", "setup.py"} & names

@@ -36,7 +36,7 @@ class Log:
 
 
 def completed(work: Coroutine[None, None, object]) -> object:
-    """Run the coroutine `work` on another thread, because a browser test may use this thread's event loop."""
+    """Run a coroutine on another thread, because a browser test may use this thread's event loop."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, work).result()
 

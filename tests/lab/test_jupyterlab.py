@@ -34,12 +34,12 @@ class Service:
         self._headers = {"Authorization": f"token {self.token}"}
 
     def text(self, path: str) -> str:
-        """Return the text at `path`."""
+        """Send a GET request to the server, and return the text of the response."""
         with urlopen(Request(self._base + path, headers=self._headers), timeout=20) as answer:  # noqa: S310
             return str(answer.read().decode())
 
     def get(self, path: str) -> Plain:
-        """Return the JSON at `path`."""
+        """Send a GET request to the server, and return the JSON of the response."""
         return json.loads(self.text(path))
 
     def kernels(self) -> Plain:
@@ -47,7 +47,7 @@ class Service:
         return self.get("/api/kernels")
 
     def post(self, path: str) -> None:
-        """Send a POST request to `path`."""
+        """Send a POST request to the server."""
         request = Request(self._base + path, data=b"", headers=self._headers)  # noqa: S310
         urlopen(request, timeout=20).close()  # noqa: S310
 
@@ -192,7 +192,7 @@ def test_a_killed_server_ends_the_command(notebook: str) -> None:
     ],
 )
 def test_wrong_options_are_refused_at_once(words: list[str], message: str) -> None:
-    """For a wrong option, `course lab` prints the reason and exits with status 1."""
+    """If an option is wrong, `course lab` prints the reason and exits with status 1."""
     with socket.socket() as busy:
         busy.bind(("127.0.0.1", 0))
         busy.listen()

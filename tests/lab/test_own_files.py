@@ -55,7 +55,7 @@ def test_a_deleted_notebook_is_copied_again(places: Places) -> None:
 def test_a_folder_that_cannot_be_created_is_one_message(
     places: Places, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The message contains the folder, and the environment variable that selects another folder."""
+    """If the user's folder cannot be written, the error message says how to select another folder."""
     monkeypatch.setenv("COURSE_HOME", "/proc/none/ros-course")
     with pytest.raises(SetupError, match=r"/proc/none/ros-course cannot be written \(.*set COURSE_HOME to"):
         make_own_files(places)

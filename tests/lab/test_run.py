@@ -16,7 +16,7 @@ from tests.support import eventually
 
 
 def course_run(*words: str, text: str = "", **variables: str) -> subprocess.CompletedProcess[str]:
-    """Run `course run` with a command; `text` is the command's input."""
+    """Run `course run` with a command; `text` is the input of this command."""
     env = {**user_environment(), **variables}
     return subprocess.run(
         [ROOT / "course", "run", *words], env=env, input=text, capture_output=True, text=True
@@ -41,7 +41,7 @@ def test_input_reaches_the_command() -> None:
 
 
 def test_an_unknown_command_is_refused() -> None:
-    """The error message contains the name of the command, and the exit status is 1."""
+    """If the command does not exist, the error message contains its name, and the exit status is 1."""
     answer = course_run("no-such-command")
     assert (answer.returncode, answer.stderr) == (
         1,
@@ -138,7 +138,7 @@ def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
 
 
 def tagged(tag: str) -> list[int]:
-    """Return the processes whose environment contains `tag`."""
+    """Return the processes whose environment contains the given text."""
     found = []
     for environment in Path("/proc").glob("[0-9]*/environ"):
         with suppress(OSError):  # The process may have exited, or may belong to another user.
@@ -148,5 +148,5 @@ def tagged(tag: str) -> list[int]:
 
 
 def names(pids: list[int]) -> list[str]:
-    """Return the command names of the running processes in `pids`."""
+    """Return the command names of those given processes that still run."""
     return [Path(f"/proc/{pid}/comm").read_text().strip() for pid in pids if alive(pid)]

@@ -27,7 +27,7 @@ SCRIPT = (
 )
 INSTALLED = "catkin_install_python(PROGRAMS scripts/area DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})\n"
 TAB = "\t"
-BUSY = 240.0  # s; maximum time for commands that take 3 s on an idle machine, such as catkin_make
+BUSY = 240.0  # maximum time in s for commands that take 3 s on an idle machine, such as catkin_make
 
 
 class Terminal:
@@ -50,11 +50,11 @@ class Terminal:
         self._shell.sendline(line)
 
     def keys(self, text: str) -> None:
-        """Type `text`, and do not press Enter."""
+        """Type a text, and do not press Enter."""
         self._shell.send(text)
 
     def wait_for(self, text: str) -> str:
-        """Wait until `text` is printed, and return the output before it."""
+        """Wait until the terminal prints the given text, and return the output before it."""
         self._shell.expect_exact(text)
         return str(self._shell.before)
 

@@ -48,7 +48,7 @@ def test_rossrv_show() -> None:
 
 @pytest.mark.parametrize("words", [[], ["1", "2"], ["1", "2", "3", "4"], ["1", "2", "tall"]])
 def test_client_with_a_wrong_line(words: list[str]) -> None:
-    """For wrong arguments, the client prints its usage, and its exit status is 2."""
+    """If the arguments are wrong, the client prints its usage, and its exit status is 2."""
     done = terminal("rosrun", "course_pkg", "client", *words)
     assert done.returncode == 2
     assert done.stderr.startswith("usage: client LENGTH WIDTH HEIGHT")
@@ -71,7 +71,7 @@ def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], messag
 
 
 def test_number_that_does_not_fit_into_a_float32(server: NodeProcess) -> None:
-    """The client's error message contains the number and no traceback."""
+    """If a number is too large for a float32, the error message contains the number and no traceback."""
     done = terminal("rosrun", "course_pkg", "client", "1e39", "1", "1")
     assert (done.returncode, done.stderr) == (
         2,

@@ -83,7 +83,7 @@ def test_an_invalid_joint_state_is_refused(odd: JointState, message: str) -> Non
 
 @pytest.mark.parametrize("fine", [JointState(), JointState(name=["a"], position=[1.0], velocity=[])])
 def test_a_joint_state_may_have_no_joints_or_no_velocities(fine: JointState) -> None:
-    """A joint state without joints, or without velocities, is accepted."""
+    """The node accepts a joint state without joints, or without velocities."""
     assert len(mirrored(fine).position) == len(fine.name)
 
 
@@ -165,7 +165,7 @@ def test_a_signal_ends_each_node(program: str, number: signal.Signals, master: P
     ],
 )
 def test_an_invalid_parameter_is_refused(command: tuple[str, ...], message: str) -> None:
-    """The error message contains the parameter and its value, and the exit status is 1."""
+    """If a parameter is invalid, the error message contains its name and value, and the exit status is 1."""
     with NodeProcess(["rosrun", "course_pkg", *command]) as process:
         assert process.wait(10) == 1
         assert message in process.output()

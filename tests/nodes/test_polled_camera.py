@@ -49,7 +49,7 @@ def test_a_picture_has_the_requested_size(asked: tuple[int, int], size: tuple[in
     [((15, 0), "width: 15 does not fit"), ((0, 1281), "height"), ((2**32 - 1, 1), "width")],
 )
 def test_an_impossible_size_is_refused(asked: tuple[int, int], words: str) -> None:
-    """The error message contains the limits of the size."""
+    """If the requested size is outside the limits, the error message contains these limits."""
     with pytest.raises(rospy.ServiceException, match=f"{words}.*expected 16 to 1280 points"):
         take(*asked)
     assert take().image.data

@@ -20,7 +20,7 @@ def shown(cell: Cell) -> str:
 
 @pytest.mark.timeout(300)
 def test_without_a_compiler_run_all_reaches_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The checks are "not attempted", and their text contains the command that installs the compiler."""
+    """Each check reports "not attempted", and the report contains the command that installs the compiler."""
     monkeypatch.setenv("CXX", "/nowhere/c++")  # CXX selects the compiler, and CMake also reads this variable.
     notebook = read(next((ROOT / "solutions").glob("13_*.ipynb")))
     executed: list[Notebook] = []

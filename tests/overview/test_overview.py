@@ -32,7 +32,7 @@ def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def store(verdict: str, *checks: str) -> None:
-    """Store the result `verdict` for each check."""
+    """Store the same result for each of the given checks."""
     for check in checks:
         StudentRecord().store(check, {"check": check, "verdict": verdict})
 
@@ -43,7 +43,7 @@ def complete(chapter: str) -> None:
 
 
 def predicted(key: str, answer: str, actual: str) -> None:
-    """Store the prediction `answer` and the actual result `actual`."""
+    """Store a prediction: the reader's answer, and the actual result."""
     model = PredictionModel(key, "What does the client see?", (), PredictionStore())
     model.answer(answer)
     model.compare(actual)
@@ -216,7 +216,7 @@ def test_the_page_needs_no_other_files() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_a_notebook_gets_text_and_html_with_links_to_the_chapters() -> None:
-    """The output of a cell contains a link to each notebook."""
+    """The overview in the output of a cell contains a link to each notebook."""
     bundle = progress()._repr_mimebundle_()
     assert bundle["text/plain"] == str(progress())
     links = {attributes["href"] for name, attributes in Tags(bundle["text/html"]).found if name == "a"}
@@ -274,7 +274,7 @@ def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
 
 
 def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None:
-    """The error message contains the unknown chapter, or the file that cannot be written."""
+    """If a chapter is unknown or a file cannot be written, the error message is one line with its name."""
     refused = course("progress", "--csv", str(tmp_path), COURSE_STATE=str(state))
     assert refused.returncode == 1
     assert refused.stderr.startswith(f"course: {tmp_path} cannot be written")

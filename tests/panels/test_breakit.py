@@ -27,7 +27,7 @@ from tests.support import eventually
 
 @dataclass
 class Paper:
-    """Fake functions in place of those that cause faults and run tools; they only record each call."""
+    """Fake functions that only record each call; the real functions cause faults and run tools."""
 
     done: list[str] = field(default_factory=list)
     fails: bool = False
@@ -76,7 +76,7 @@ class Lab:
         self.state.update(self.model.overview())
 
     def begin(self, name: str) -> dict[str, Plain]:
-        """Open the case with the fault `name`, wait for the symptom, and return the state."""
+        """Open the case that has the given fault, wait for the symptom, and return the state."""
         number = next(case.number for case in cases() if case.fault.name == name)
         self.model.open(number)
         self.settle()
@@ -208,7 +208,7 @@ def test_an_answer_after_the_solution_is_no_first_answer(lab: Lab) -> None:
 
 
 def test_opening_a_case_undoes_the_previous_fault(lab: Lab) -> None:
-    """Opening another case undoes the previous fault."""
+    """When the student opens another case, the panel undoes the previous fault."""
     lab.begin("stale")
     lab.begin("md5")
     lab.model.close()
@@ -267,7 +267,7 @@ def test_the_repr_of_the_lab_is_the_same_in_every_run(tmp_path: Path) -> None:
 
 
 def test_nothing_is_broken_before_a_case_is_pressed(master: PrivateMaster, tmp_path: Path) -> None:
-    """Opening a case causes its fault, and closing the panel undoes the fault."""
+    """When a case is opened, the panel causes its fault; when the panel is closed, it undoes the fault."""
     client = MasterClient(master.uri)
     panel = BreakIt("stale", store=CaseStore(tmp_path / "cases.json"))
     number = panel.cases[0]["number"]

@@ -127,7 +127,7 @@ def pollers() -> list[threading.Thread]:
 
 
 def test_a_value_is_reported_once(polled: Polled) -> None:
-    """An unchanged value is not reported again."""
+    """The poller does not report an unchanged value again."""
     polled.poller.start()
     eventually(lambda: polled.seen)
     assert polled.read_again()
@@ -137,7 +137,7 @@ def test_a_value_is_reported_once(polled: Polled) -> None:
 
 
 def test_an_error_is_reported_once_and_recovery_is_reported(polled: Polled) -> None:
-    """A repeated error is reported once, and the first value after the error is reported."""
+    """The poller reports a repeated error only once, and reports the first value after the error."""
     polled.now = OSError("gone")
     polled.poller.start()
     eventually(lambda: polled.failed)
@@ -163,7 +163,7 @@ def test_an_error_in_the_callback_does_not_end_the_thread(polled: Polled) -> Non
 
 
 def test_stop_ends_the_thread(polled: Polled) -> None:
-    """stop() ends the thread, and start() starts a new thread."""
+    """stop() ends the poller's thread, and start() starts a new thread."""
     polled.poller.start()
     polled.poller.start()
     eventually(lambda: polled.seen)
@@ -202,7 +202,7 @@ def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
 
 
 def test_there_are_panels_to_join() -> None:
-    """The build finds the scripts of the panels."""
+    """The build of the panels' scripts finds each panel."""
     panels = {"choices", "graph", "prediction", "service", "timeline", "topic", "turtles"}
     assert panels <= {entry.stem for entry in ENTRIES}
 

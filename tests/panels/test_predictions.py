@@ -87,7 +87,7 @@ def test_the_summary_is_of_one_chapter_in_order(store: PredictionStore) -> None:
 
 
 def test_a_broken_file_raises_an_error_with_its_path(store: PredictionStore) -> None:
-    """The error message contains the path of the damaged file, and the file does not change."""
+    """If the stored file is damaged, the error message contains its path, and the file does not change."""
     store.path.parent.mkdir()
     store.path.write_text("{")
     with pytest.raises(InvalidPredictions, match=r"predictions\.json.*Move this file to"):
@@ -249,7 +249,7 @@ def test_a_mistake_of_the_author_raises_an_error(
 
 
 def test_a_broken_file_of_choices_raises_an_error_with_its_path(choice_store: ChoiceStore) -> None:
-    """The error message contains the path of the damaged file, and the file does not change."""
+    """If the stored file is damaged, the error message contains its path, and the file does not change."""
     choice_store.path.parent.mkdir()
     choice_store.path.write_text('{"03.cases": {"colour": 3}}')
     with pytest.raises(InvalidPredictions, match=r"choices\.json does not contain valid.*Move this file"):

@@ -41,7 +41,7 @@ class Caller:
         return response
 
     def cancel(self) -> None:
-        """Stop the wait."""
+        """Release the waiting call."""
         self.cancelled = True
         self.release.set()
 
@@ -125,7 +125,7 @@ def test_errors_are_shown_at_their_fields_and_nothing_is_called(harness: Harness
 
 @pytest.mark.parametrize("deadline", ["", "0", "-1", "soon", "nan", "inf", "1e9"])
 def test_a_deadline_is_a_number_of_seconds(harness: Harness, deadline: str) -> None:
-    """For an invalid timeout, the panel shows an error at the field of the timeout."""
+    """If the timeout is invalid, the panel shows an error at the field of the timeout."""
     harness.model.start(GOOD, deadline)
     assert "at most 3600" in harness.state["check"]["errors"]["@deadline"]
     assert harness.caller.requests == []
@@ -157,7 +157,7 @@ def test_a_second_call_waits_for_the_first(harness: Harness) -> None:
 
 
 def test_cancel_ends_the_call(harness: Harness) -> None:
-    """A cancelled call is shown as cancelled."""
+    """The panel shows a cancelled call as cancelled."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     eventually(lambda: harness.caller.requests)
@@ -230,7 +230,7 @@ def test_a_service_that_changes_its_type_gets_a_new_form(harness: Harness) -> No
 
 
 def test_a_type_that_is_not_known_here_leaves_no_form() -> None:
-    """For an unknown type, the panel shows the reason instead of the form."""
+    """If the type is unknown, the panel shows the reason instead of the form."""
     harness = Harness()
     harness.model.offer([Offer("/x", "no/Such", "/n")])
     harness.model.pick("/x")

@@ -56,7 +56,7 @@ def test_a_cell_calls_with_the_same_form(panel: ServicePanel) -> None:
 
 
 def test_the_text_of_a_panel_never_changes(panel: ServicePanel) -> None:
-    """The repr and the plain text are the same before and after a call."""
+    """The panel's repr and plain text are the same before and after a call."""
     before = repr(panel)
     panel.call()
     assert repr(panel) == before == "ServicePanel('/getGeometry')"

@@ -41,7 +41,7 @@ def message(number: int, at: float, *hearers: str) -> list[Event]:
 
 
 def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | dict[str, str]) -> Recording:
-    """Return a recording of `events`, which lasts `length` s."""
+    """Return a recording with the given events; its length is in s."""
     ordered = tuple(sorted(events, key=lambda event: event.start))
     return Recording(
         events=ordered, nodes=tuple(sorted({event.node for event in events})), length=length, **more
@@ -59,7 +59,7 @@ def test_a_call_has_two_arrows() -> None:
 
 
 def test_what_was_not_recorded_is_not_drawn() -> None:
-    """If only one of two connected events was recorded, no arrow is drawn."""
+    """If the recording contains only one of two connected events, the timeline has no arrow for them."""
     handler = [event for event in call() if event.kind == "handler"]
     caller = [event for event in call() if event.kind != "handler"]
     callback = message(1, 1.0, "/simulator")[1:]
@@ -145,7 +145,7 @@ def test_the_state_is_bounded() -> None:
 
 
 def test_too_many_calls() -> None:
-    """If there are too many events, only the first events are drawn; a note says how many."""
+    """If there are too many events, the timeline draws only the first events; a note says how many."""
     calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
     kept = state(recording(*calls, length=1001.0))
     assert len(kept["columns"]["kind"]) == MOST

@@ -56,7 +56,7 @@ def test_a_measurement_is_drawn_first() -> None:
 
 @pytest.mark.parametrize("name", ["speed", "/", "/a//b", "/my speed", "~speed", "/1", "/a\nb", ""])
 def test_an_invalid_name_is_refused(name: str) -> None:
-    """For an invalid topic name, the error message describes valid names."""
+    """If the topic name is invalid, the error message describes valid names."""
     with pytest.raises(NotATopic, match="Use a full name"):
         FakeProcess(topic=name)
 
@@ -158,7 +158,7 @@ def test_messages_are_listed_the_latest_first_and_bounded() -> None:
 
 
 def test_messages_that_cannot_be_read_are_named() -> None:
-    """A message that cannot be read is listed with a note."""
+    """The panel lists a message that it cannot read, with a note."""
     process = FakeProcess()
     process.model.report(
         {"messages": [message(1, "", STRING, texts=None), message(2, "", texts=None, size=1_000_000)]}
@@ -169,7 +169,7 @@ def test_messages_that_cannot_be_read_are_named() -> None:
 
 
 def test_a_message_without_fields_is_a_message() -> None:
-    """A message without fields is listed, without a plot."""
+    """The panel lists a message without fields, and shows no plot."""
     empty = message_type("std_msgs/Empty")
     process = FakeProcess(empty)
     assert process.state["about"]["numbers"] == []

@@ -32,7 +32,7 @@ class Wall:
         self.model = TypeModel(lambda **parts: self.said.append(parts))
 
     def last(self, name: str) -> Plain:
-        """Return the latest value that the model has sent with the keyword `name`."""
+        """Return the latest value that the model has sent with the given keyword."""
         return next(each[name] for each in reversed(self.said) if name in each)
 
 
@@ -63,7 +63,7 @@ def test_a_service_type_has_fields_comments_and_lines() -> None:
 
 
 def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
-    """Nested messages are shown with their fields, and constants are listed."""
+    """The browser shows nested messages with their fields, and lists constants."""
     [fields] = described("rosgraph_msgs/Log", "msg")["parts"]
     header = fields["fields"][0]
     assert (header["type"], [each["name"] for each in header["fields"]]) == (
@@ -77,7 +77,7 @@ def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
 
 
 def test_the_error_in_a_broken_file_has_its_line(folder: Path) -> None:
-    """For an invalid definition, the browser shows the error, the line number, and the file."""
+    """If a definition is invalid, the browser shows the error, the line number, and the file."""
     package(folder, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")
     told = described("bad_pkg/Slip", "srv")
     assert "bad_pkg/srv/Slip.srv, line 2" in told["problem"]
@@ -117,7 +117,7 @@ def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
 
 @pytest.mark.parametrize("name", ["std_srvs/Nothing", "nonsense", "a/b/c", "<script>/x"])
 def test_a_type_that_is_not_there(name: str) -> None:
-    """For an unknown name, the page shows similar names or gives other advice."""
+    """If a name is unknown, the page shows similar names or gives other advice."""
     told = described(name, "srv")
     assert name in told["problem"]
     assert (told["parts"], told["md5"]) == ([], "")

@@ -98,7 +98,7 @@ def covered(pieces: list[PieceState]) -> list[tuple[int, int]]:
 
 
 def gapless(pieces: list[PieceState], size: int) -> bool:
-    """Return whether the fields cover each of `size` bytes once and in order."""
+    """Return whether the fields cover each byte of the message once and in order."""
     at = 0
     for start, count in covered(pieces):
         if start != at:
@@ -123,7 +123,7 @@ def titles(*conversations: RelayedConnection, kind: ServiceType | None = GEOMETR
 
 
 def unknown(name: str) -> ServiceType:
-    """Raise UnknownType for the type `name`."""
+    """Raise UnknownType for any type name."""
     raise UnknownType(name, f"there is no {name}")
 
 
@@ -156,7 +156,7 @@ def test_every_primitive_has_its_place_and_value() -> None:
 
 @pytest.mark.parametrize("cut", range(0, 200, 7))
 def test_bytes_that_were_cut_off_are_still_shown(cut: int) -> None:
-    """The complete fields of a truncated message are shown."""
+    """The wire view shows the complete fields of a truncated message."""
     kind = compile_message("x/Everything", EVERYTHING)
     data = sized(body(kind, VALUES))[:cut]
     assert gapless(request_pieces(data, kind), len(data))
@@ -198,7 +198,7 @@ def test_long_values_are_shortened() -> None:
 
 
 def test_too_many_pieces_are_folded() -> None:
-    """If a message has hundreds of fields, the last fields are shown as one item."""
+    """If a message has hundreds of fields, the wire view shows the last fields as one item."""
     kind = compile_message("x/Wide", "\n".join(f"int32 f{number}" for number in range(400)))
     data = sized(body(kind, {}))
     pieces = request_pieces(data, kind)
@@ -207,7 +207,7 @@ def test_too_many_pieces_are_folded() -> None:
 
 
 def test_a_header_is_fields_with_their_lengths() -> None:
-    """Each header field is shown with its length and its text."""
+    """The wire view shows each header field with its length and its text."""
     data = header(callerid="/me", md5sum="30446f", note="ü=1")
     pieces = header_pieces(data)
     assert gapless(pieces, len(data))
@@ -275,14 +275,14 @@ def test_failures_are_distinguished() -> None:
 
 
 def test_a_type_that_is_not_known_is_shown_as_bytes() -> None:
-    """If the type is unknown, the body is shown as bytes."""
+    """If the type is unknown, the wire view shows the body as bytes."""
     wire = Wire("/x", connections=[connection(GREETED, WELCOME, ASKED, ANSWERED)])
     request = next(step for step in state(wire, unknown)["steps"] if step["title"] == "Request")
     assert [piece["role"] for piece in request["pieces"]] == ["length", "raw"]
 
 
 def test_many_steps_are_limited_with_a_note() -> None:
-    """If there are too many calls, only the first steps are shown, and a note contains the total number."""
+    """If there are too many calls, the wire view shows only the first steps and the total number."""
     wire = Wire(
         "/x", connections=[connection(GREETED, WELCOME, *[ASKED, ANSWERED] * 50)], kind=GEOMETRY, skipped=3
     )

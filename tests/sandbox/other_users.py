@@ -48,7 +48,7 @@ def unpacked_autograder(folder: Path, **options: Path | float | tuple[str, ...] 
 def run_installed(
     source: Path, command: Sequence[str], *, timeout: float
 ) -> subprocess.CompletedProcess[str]:
-    """Run `command` in a copy of the course. In the copy, only root can read the checks and the solutions."""
+    """Run a command in a copy of the course. In the copy, only root can read the checks and the solutions."""
     if os.geteuid() != 0 or not shutil.which("bwrap"):
         pytest.skip("only root can run code as other users")
     places = Places.of()

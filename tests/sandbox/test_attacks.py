@@ -56,7 +56,7 @@ def batch(worker: SandboxWorker, request: pytest.FixtureRequest) -> Iterator[str
 
 
 def job(source: str) -> PartJob:
-    """Return a job that checks `source` as the answer to exercise 05.1."""
+    """Return a job that checks the given source as the answer to exercise 05.1."""
     return PartJob(CHECK, BEFORE, (source,), AFTER, 1, find(CHECK).deadline)
 
 

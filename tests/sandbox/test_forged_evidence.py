@@ -17,20 +17,20 @@ from tests.support import usual
 pytestmark = pytest.mark.usefixtures("sandbox")
 # Each example answer is wrong in a property that only the kernel can see, such as the type of a value.
 WRONG = {
-    "06.5 a tuple": 1.0,
-    "11.1 list of ints": 0.0,
-    "11.3 a proxy in another function": 0.0,
-    "05.2 starts from 1": 0.0,
-    "05.2 one count for all objects": 0.0,
-    "05.4 on at the start": 1.6,
-    "05.4 one value for all switches": 1.6,
-    "08.5 as a dict": 2.0,
+    "06.5 returns a tuple": 1.0,
+    "11.1 returns a list of ints": 0.0,
+    "11.3 uses a ServiceProxy in another function": 0.0,
+    "05.2 starts the count at 1": 0.0,
+    "05.2 uses one count for all objects": 0.0,
+    "05.4 is on at the start": 1.6,
+    "05.4 uses one value for all switches": 1.6,
+    "08.5 returns a dict": 2.0,
     "08.5 stores the type of each name": 2.0,
-    "11.1 a list class with the name bytes": 0.0,
-    "10.2 looks twice a second": 0.0,
-    "10.2 keeps the processor busy": 0.0,
-    "12.1 looks at the thread all the time": 0.0,
-    "12.1 hides its processor time": 0.0,
+    "11.1 returns a list class with the name bytes": 0.0,
+    "10.2 checks twice per second": 0.0,
+    "10.2 uses a loop without a pause": 0.0,
+    "12.1 polls the thread without a pause": 0.0,
+    "12.1 polls without a pause, and hides its CPU time": 0.0,
 }
 
 

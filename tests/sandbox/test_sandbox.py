@@ -83,7 +83,7 @@ def worker() -> Iterator[SandboxWorker]:
 
 
 def told(worker: SandboxWorker, source: str) -> str:
-    """Run `source` as the answer of a submission, and return the error message of the cell."""
+    """Run a source as the answer of a submission, and return the error message of the cell."""
     job = PartJob("05.1", "", (textwrap.dedent(source),), "", 1, 1.0, 5.0, 10.0)
     said = [words["error"] for words in worker.run(job).messages if words["cell"].startswith("answer")]
     assert said, "the cell raised no error"

@@ -57,7 +57,7 @@ def test_help_comes_before_anything_is_installed(name: str, nowhere: dict[str, s
 
 @pytest.mark.parametrize(("words", "seen"), [(["fly"], "invalid choice: 'fly'"), ([], "COMMAND")])
 def test_an_unknown_command_is_refused_at_once(words: list[str], seen: str, nowhere: dict[str, str]) -> None:
-    """For an unknown command, the exit status is 2, and no set-up starts."""
+    """If a command is unknown, the exit status is 2, and no set-up starts."""
     answer = course(*words, **nowhere)
     assert answer.returncode == 2
     assert seen in answer.stderr
@@ -112,7 +112,7 @@ def test_a_second_start_sets_nothing_up() -> None:
 
 
 def test_doctor_reports_no_problem_on_this_machine() -> None:
-    """Without problems, the exit status of `course doctor` is 0."""
+    """If `course doctor` finds no problem, its exit status is 0."""
     answer = course("doctor", ROS_MASTER_URI="")
     assert answer.returncode == 0, answer.stdout
     assert "to do" not in answer.stdout

@@ -48,7 +48,7 @@ def test_the_users_preloaded_libraries_are_kept() -> None:
 
 
 def test_applying_the_environment_twice_changes_nothing() -> None:
-    """If the environment of the course is already set, merged() does not change it."""
+    """If the environment already contains the course's variables, merged() does not change it."""
     once = environment.merged(PLACES, {"PATH": "/a:/usr/bin"})
     assert environment.merged(PLACES, once) == once
 

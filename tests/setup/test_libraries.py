@@ -23,7 +23,7 @@ def test_the_mirror_in_pips_settings_is_used(tmp_path: Path) -> None:
 
 
 def test_a_missing_folder_is_omitted() -> None:
-    """A missing folder in pip's settings is ignored."""
+    """The set-up ignores a missing folder in pip's settings."""
     words = as_uv_variables({"find-links": ["/none"], "extra-index-url": ["file:///none/simple"]}, {})
     assert words == UV_SETTINGS
 

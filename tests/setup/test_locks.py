@@ -19,12 +19,12 @@ OLDEST = "< '3.11'"  # The marker of a library whose newer versions do not suppo
 
 
 def pinned(extra: str) -> set[tuple[str, str]]:
-    """Return the name and the version of each library in the lock file for `extra`."""
+    """Return the name and the version of each library in a lock file."""
     return {(name, version) for name, version, _ in PIN.findall(lock_file(extra).read_text())}
 
 
 def declared(heading: str) -> list[tuple[str, str, str]]:
-    """Return the name, version and marker of each library in the list `heading` of pyproject.toml.
+    """Return the name, version and marker of each library in a list of pyproject.toml.
 
     The function reads the file as text, because Python 3.10 has no TOML module.
     """

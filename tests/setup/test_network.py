@@ -29,7 +29,7 @@ def kernel(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_setting_that_forbids_namespaces_is_named(
     kernel: Path, name: str, forbids: str, _allows: str
 ) -> None:
-    """The message contains the kernel's setting, its value, and the command that changes the setting."""
+    """If a setting of the kernel forbids namespaces, the advice contains the command that changes it."""
     setting = kernel / name.replace(".", "/")
     setting.parent.mkdir()
     setting.write_text(f"{forbids}\n")
@@ -44,7 +44,7 @@ def test_other_reasons_are_quoted(kernel: Path) -> None:
 
 
 def test_what_outgoing_connections_need(kernel: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The message says what is missing: the program, its device, or a name server that it can reach."""
+    """If a part is missing, the message names it: the program, its device, or a reachable name server."""
     assert "slirp4netns is not installed" in network.outgoing_problem()[0]
     fake(kernel, "slirp4netns", "exit 0")
     monkeypatch.setattr(network, "DEVICE", str(kernel / "none"))

@@ -48,7 +48,7 @@ def test_a_derivative_uses_the_packages_of_its_base(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", ['PRETTY_NAME="Ubuntu 24.04"\nVERSION_CODENAME=noble\n', "", "nonsense"])
 def test_on_other_systems_the_message_recommends_conda(text: str, tmp_path: Path) -> None:
-    """For an unknown Linux distribution, the error message contains the command for conda."""
+    """If a Linux distribution is unknown, the error message contains the command for conda."""
     with pytest.raises(SetupError, match=r"conda env create -f .*environment.yml"):
         read_platform(tmp_path, release(tmp_path, text))
 

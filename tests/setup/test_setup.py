@@ -10,11 +10,11 @@ from types import SimpleNamespace
 import pytest
 
 from course_pkg.errors import SetupError
-from course_pkg.setup import Places, packages
+from course_pkg.setup import Places, packages, steps
 from course_pkg.setup.journal import Journal
 from course_pkg.setup.progress import Progress
 from course_pkg.setup.stamps import locked
-from course_pkg.setup.steps import steps_of
+from course_pkg.setup.steps import Step, ensure, steps_of
 
 
 @pytest.fixture
@@ -30,6 +30,21 @@ def test_an_empty_cache_needs_libraries_and_workspace(tmp_path: Path) -> None:
     *_, [libraries], [catkin] = [[step for step in stage if step.makes] for stage in steps_of(places)]
     assert not libraries.is_done()
     assert not catkin.is_done()
+
+
+@pytest.mark.parametrize(("complete", "message"), [(True, "libraries of the hub"), (False, "does not work")])
+def test_a_user_cannot_complete_an_installation(
+    complete: bool, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An ordinary user of an installation gets a message that says what an administrator has to do."""
+
+    def steps_of_installation(_: Places, *, hub: bool = False, **_others: bool) -> list[list[Step]]:
+        return [[Step("libraries", lambda: complete and not hub, lambda _journal, _progress: None)]]
+
+    monkeypatch.setattr(steps, "steps_of", steps_of_installation)
+    monkeypatch.setattr(Places, "installed", True)
+    with pytest.raises(SetupError, match=message):
+        ensure(Places(tmp_path, tmp_path / "nowhere"), hub=True)
 
 
 def test_a_tool_that_fails_is_shown_by_its_last_lines_and_its_log(journal: Journal) -> None:
@@ -74,7 +89,7 @@ def test_the_set_up_waits_for_another_package_manager(
 
 
 def test_waiting_for_a_lock_has_a_timeout(journal: Journal, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After the timeout, or after an error that is not about a lock, the tool's error message is shown."""
+    """After the timeout, or after an error that is not about a lock, the set-up shows the tool's error."""
     monkeypatch.setattr(packages, "LOCK_TIMEOUT", 0.0)
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     for words in ("Could not get lock /x", "Unable to locate package y"):
@@ -114,7 +129,7 @@ def test_progress_in_a_pipe_prints_start_and_result() -> None:
 
 
 def test_progress_counts_and_estimates_the_rest(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If the output is a pipe, the progress of the work is printed every 10 s."""
+    """If the output is a pipe, the set-up prints its progress every 10 s."""
     now = 0.0
     monkeypatch.setattr("time.monotonic", lambda: now)
     stream = io.StringIO()

@@ -32,7 +32,7 @@ def outbox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Outbox:
 def test_results_arrive_and_leave_the_outbox(
     outbox: Outbox, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """After send(), the outbox is empty, and the service has the hint, but not the student's values."""
+    """After send(), the outbox is empty, and the service has the hint, but none of the student's values."""
     assert outbox.put(REPORT) == ""
     (stored,) = outbox.folder.glob("*.json")
     assert "my secret" not in stored.read_text()

@@ -29,7 +29,7 @@ def test_numbers_follow_the_order_of_coming() -> None:
 
 
 def test_a_second_call_removes_future_customers() -> None:
-    """A second let_in() removes customers who have not come yet, but no customers at the counter."""
+    """A second let_in() call removes customers who have not come yet, but no customers at the counter."""
     counter = Counter()
     counter.let_in(0.0, [0.0, 5.0], stay=10.0)
     visits = counter.let_in(1.0, [1.0], stay=1.0)
@@ -57,7 +57,7 @@ def test_the_next_change_is_the_next_arrival_or_departure() -> None:
 
 @pytest.mark.parametrize("wrong", [-0.1, math.nan, math.inf, 1e9])
 def test_an_impossible_time_is_refused(wrong: float) -> None:
-    """For an impossible time, the error message contains its field, and the planned visits do not change."""
+    """If a time is impossible, the error message contains its field, and the planned visits do not change."""
     counter = Counter()
     counter.let_in(0.0, [1.0], stay=1.0)
     with pytest.raises(FieldError, match=r"after\[1\]"):

@@ -20,7 +20,7 @@ from course_pkg.shop.pictures import (
 
 
 def figures(width: int, height: int, customers: int, y: float) -> int:
-    """Return the number of coloured segments in the pixel row at `y` (0 to 1) of a picture of the shop."""
+    """Count the coloured segments in a pixel row of a picture of the shop; `y` is 0 (top) to 1 (bottom)."""
     data = shop_picture(width, height, customers)
     start = 3 * width * int(y * height)
     row = [tuple(data[place : place + 3]) for place in range(start, start + 3 * width, 3)]
@@ -51,7 +51,7 @@ def test_the_same_shop_is_the_same_picture() -> None:
 def frame(
     data: bytes, width: int = WIDTH, height: int = HEIGHT, *, step: int = 0, encoding: str = "mono8"
 ) -> SimpleNamespace:
-    """Return the fields of a sensor_msgs/Image. Without `step`, the rows have no padding."""
+    """Return the fields of a sensor_msgs/Image. If `step` is not given, the rows have no padding."""
     return SimpleNamespace(data=data, width=width, height=height, step=step or width, encoding=encoding)
 
 
@@ -70,7 +70,7 @@ def test_a_tenth_of_dark_points_is_enough(dark: int, seen: bool) -> None:
 
 
 def test_the_padding_of_a_row_is_ignored() -> None:
-    """If `step` is larger than the width, the additional bytes of a row are ignored."""
+    """If `step` is larger than the width, the function ignores the additional bytes of a row."""
     light, dark = bytes([200] * 10 + [0] * 6), bytes([0] * 10 + [255] * 90)
     assert not sees_customer(frame(light * 10, 10, 10, step=16))
     assert sees_customer(frame(dark, 10, 1, step=100))

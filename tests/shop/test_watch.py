@@ -14,7 +14,7 @@ from course_pkg.shop import Customer, Eye, Watch, await_customer
 from course_pkg.shop import watch as module
 from tests.support import eventually
 
-FOR_EVER = 60.0  # s; longer than any test
+FOR_EVER = 60.0  # in s; longer than any test
 
 
 def test_a_new_customer_is_returned_once() -> None:
@@ -38,7 +38,7 @@ def test_a_customer_who_has_left_is_forgotten() -> None:
 
 
 def test_one_customer_replaces_another() -> None:
-    """A new customer is found even if another customer leaves at the same time."""
+    """The watch finds a new customer even if another customer leaves at the same time."""
     watch = Watch()
     watch.see([1])
     watch.see([2])
@@ -56,7 +56,7 @@ def test_a_wait_ends_at_once_if_a_customer_is_there() -> None:
 
 
 def test_all_waiting_threads_are_notified() -> None:
-    """Each waiting thread continues when a customer with a number above its `after` comes."""
+    """Each thread waits until a customer comes whose number is above the thread's limit `after`."""
     watch = Watch()
     watch.see([1])
     with ThreadPoolExecutor(4) as pool:
@@ -74,7 +74,7 @@ def _number(future: Future[Customer | None]) -> int | None:
 
 
 def test_a_wait_without_a_customer_ends_after_its_time() -> None:
-    """Without a customer, `wait` returns None after `patience` s."""
+    """If no customer comes, `wait` returns None when its time limit is over."""
     watch = Watch()
     watch.see([])
     began = time.monotonic()
@@ -83,7 +83,7 @@ def test_a_wait_without_a_customer_ends_after_its_time() -> None:
 
 
 def test_a_wait_ends_when_the_camera_is_silent() -> None:
-    """If the camera sends no message for `silence` s, `wait` raises CameraSilent."""
+    """If the camera sends no message for longer than the limit `silence`, `wait` raises CameraSilent."""
     watch = Watch()
     with pytest.raises(CameraSilent):
         watch.wait(0, FOR_EVER, silence=5.0)  # The camera has never published a message.

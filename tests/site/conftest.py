@@ -65,7 +65,7 @@ def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
-    """Serve the sites of `course` and `panels` on 127.0.0.1, and return their addresses."""
+    """Serve the site of the course and the site of the panels on 127.0.0.1, and return their addresses."""
     servers = {}
     for site in (course, panels):
         handler = partial(_Quiet, directory=str(site))

@@ -30,12 +30,12 @@ def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
 
 
 def runs(cache: Path) -> Runs:
-    """Return the object that stores the chapters' runs in the folder `cache`."""
+    """Return the object that stores the chapters' runs in a folder."""
     return Runs(Places(Places.of().checkout, cache))
 
 
 def shown(*outputs: Output) -> Body:
-    """Return the body of a page that shows `outputs`."""
+    """Return the body of a page that shows the given outputs."""
     return Exporter().body(book(code("show()", outputs=list(outputs))))
 
 

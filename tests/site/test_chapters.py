@@ -11,7 +11,7 @@ from tests.authoring.books import book, exercise, text
 
 
 def chapter(minutes: int) -> Chapter:
-    """Return a chapter that takes `minutes` minutes."""
+    """Return a chapter that takes the given number of minutes."""
     return Chapter("05_x", "X", "", "", "", minutes, ())
 
 

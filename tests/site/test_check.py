@@ -14,7 +14,7 @@ GOOD = (
 
 
 def page(folder: Path, html: str) -> list[str]:
-    """Write a page with the HTML text `html`, and a second, correct page; return the faults of both pages."""
+    """Write a page with the given HTML text, and a second, correct page; return the faults of both pages."""
     (folder / "one.html").write_text(f"<html><body>{html}")
     (folder / "two.html").write_text('<p id="x">x</p>')
     return faults(folder)

@@ -24,7 +24,7 @@ DRAWING = (
 
 
 def page(folder: Path, *sources: str, prefix: str = "") -> Body:
-    """Return the body of a page that has one Markdown cell for each text in `sources`."""
+    """Return the body of a page that has one Markdown cell for each of the given texts."""
     return Exporter().body(book(*(text(source, f"t{n}") for n, source in enumerate(sources))), prefix, folder)
 
 

@@ -102,7 +102,7 @@ def problems(
     colours: Literal["light", "dark"],
     names: Container[str],
 ) -> dict[str, list[str]]:
-    """Return the problems that axe-core finds on the pages in `names`, with and without the search dialog."""
+    """Return the problems that axe-core finds on the named pages, with and without the search dialog."""
     found, options = {}, options_for(width, colours)
     with reader(browser, width, colours) as page:
         for site in sites:
@@ -127,14 +127,14 @@ def options_for(width: int, colours: str) -> dict[str, Any]:
 
 
 def violations(page: Page, options: Mapping[str, Any] = OPTIONS, part: str = "html") -> list[str]:
-    """Return the problems that axe-core finds in the element `part`. The page must have loaded axe-core."""
+    """Return the problems that axe-core finds in a part of the page. The page must have loaded axe-core."""
     run = "([part, options]) => axe.run(part, options)"
     found: list[dict[str, Any]] = page.evaluate(run, [part, options])["violations"]
     return [f"{each['id']}: {node['html'][:200]}" for each in found for node in each["nodes"]]
 
 
 def look_for(page: Page, words: str) -> None:
-    """Open the search dialog with the key "/", type `words`, and wait for the results."""
+    """Open the search dialog with the key "/", type the words, and wait for the results."""
     page.keyboard.press("/")
     page.get_by_role("searchbox").fill(words)
     expect(page.get_by_role("dialog").get_by_role("status")).to_contain_text("found")
@@ -216,7 +216,7 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
 
 
 def test_a_search_without_results_shows_a_message(browser: Browser, course: Path) -> None:
-    """For a search without results, the message contains the search term; Escape closes the dialog."""
+    """If a search finds nothing, the message contains the search term; Escape closes the dialog."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()

@@ -21,7 +21,7 @@ def test_raw_html_is_shown_as_text() -> None:
 
 @pytest.mark.parametrize("link", ["javascript:alert(1)", "data:text/html,x", "vbscript:x"])
 def test_a_link_cannot_run(link: str) -> None:
-    """A script in a link's address is removed."""
+    """The converter removes a script in a link's address."""
     assert link.partition(":")[0] not in prose()(f"[here]({link})")
 
 

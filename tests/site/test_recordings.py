@@ -57,7 +57,7 @@ class Noted:
 
 @pytest.mark.parametrize("trouble", [None, NoServiceSelected("There is no server.")])
 def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) -> None:
-    """The service is selected before its requests are recorded.
+    """The recording selects the service before it records the requests.
 
     If the recording fails, the notebook continues.
     """
@@ -67,7 +67,7 @@ def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) 
 
 
 def test_a_panel_is_shown_for_a_while() -> None:
-    """If the recording plan contains `watch`, the panel is shown for some time and then hidden."""
+    """If the recording plan contains `watch`, the recording shows the panel for some time and hides it."""
     panel = Noted()
     record_panel(panel, {"watch": 0, "calls": [["/switch/report", "std_srvs/Trigger", {}]]})
     assert panel.done == ["shown", "hidden"]
@@ -119,7 +119,7 @@ GRAPH = "course_pkg.panels.graph.view.GraphPanel"
 
 
 def saved(kind: str, **state: Plain) -> Notebook:
-    """Return a notebook whose only output is a widget of the class `kind` with the traits `state`."""
+    """Return a notebook whose only output is a widget with the given class and traits."""
     view = result(text_plain="GraphPanel()")
     view["data"][VIEW] = {"model_id": "m"}
     notebook = book(code("GraphPanel()", outputs=[view]))
@@ -135,7 +135,7 @@ def data(notebook: Notebook) -> dict[str, Plain]:
 
 
 def test_a_panel_is_kept_without_its_script() -> None:
-    """The output contains the name and the state of the widget, but no script."""
+    """The output for a saved panel contains the panel's name and state, but no script."""
     notebook = saved(GRAPH, data={"x": 1})
     embed_states(notebook)
     assert data(notebook) == {
@@ -146,7 +146,7 @@ def test_a_panel_is_kept_without_its_script() -> None:
 
 
 def test_a_widget_of_another_library_is_shown_as_text() -> None:
-    """A widget of another library is shown as text."""
+    """The page shows a widget of another library as text."""
     for kind in ("elsewhere.Widget", "course_pkg.panels.graph.view.GraphPanel2.x", "", f"{GRAPH}\n"):
         notebook = saved(kind)
         embed_states(notebook)
@@ -154,7 +154,7 @@ def test_a_widget_of_another_library_is_shown_as_text() -> None:
 
 
 def test_a_view_without_a_state_is_shown_as_text() -> None:
-    """A widget without a saved state is shown as text."""
+    """The page shows a widget without a saved state as text."""
     notebook = saved(GRAPH)
     notebook["metadata"] = {}
     embed_states(notebook)

@@ -50,7 +50,7 @@ def test_pages_are_small(course: Path, panels: Path) -> None:
 
 
 def test_a_chapter_that_fails_does_not_stop_the_other_chapters(tmp_path: Path) -> None:
-    """A chapter that fails is reported, and its page shows the stored outputs."""
+    """The build reports a chapter that fails, and the chapter's page shows the stored outputs."""
     chapters = {"_00_good": [code("1 + 1")], "_01_bad": [text("Some prose."), code("1 / 0", id="boom")]}
     troubles = write_site(Settings(tmp_path / "site"), store(tmp_path, **chapters), runs(tmp_path / "cache"))
     assert troubles == [

@@ -18,7 +18,7 @@ from course_pkg.turtlesim.turtle_interface import publish_without_waiting
 
 
 def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.socket, dict[str, str]]:
-    """Connect to the server of the service `at`, and send a header with the fields `fields`.
+    """Connect to the server of a service, and send a header with the given fields.
 
     Return the socket and the server's header.
     """
@@ -37,7 +37,7 @@ def framed(sock: socket.socket) -> bytes:
 
 
 def exactly(sock: socket.socket, count: int) -> bytes:
-    """Read exactly `count` bytes."""
+    """Read exactly the given number of bytes."""
     data = b""
     while len(data) < count:
         more = sock.recv(count - len(data))
@@ -69,7 +69,7 @@ def test_the_header_names_the_types_of_request_and_response(
 
 
 def test_a_failed_call_sends_an_empty_error_message(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """For a failed call, the server sends the byte 0 (no success) and an empty error message."""
+    """If a call fails, the server sends the byte 0 (no success) and an empty error message."""
     sock, _ = connected(master, "/kill", service="/kill", md5sum=Kill._md5sum)
     with sock:
         sock.sendall(request(Kill._request_class("nobody")))
@@ -99,7 +99,7 @@ def test_a_persistent_connection_takes_one_request_after_another(
 def test_a_wrong_header_is_answered(
     master: PrivateMaster, simulator: NodeProcess, fields: dict[str, str], words: str
 ) -> None:
-    """For a wrong header, the field `error` of the server's header contains roscpp's error message."""
+    """If a header is wrong, the field `error` of the server's header contains roscpp's error message."""
     sock, header = connected(master, "/kill", **fields)
     sock.close()
     assert words in header["error"]
@@ -137,7 +137,7 @@ def test_valid_names(name: str) -> None:
     ],
 )
 def test_invalid_names(name: str, message: str) -> None:
-    """The error message contains the invalid character and its position, as in roscpp."""
+    """If a name is invalid, the error message contains the wrong character and its position, as in roscpp."""
     assert message in name_error(name)
 
 

@@ -27,7 +27,7 @@ GROUND, LINE = (69, 86, 255), (1, 2, 3)
 
 
 def run(world: World, ticks: int, start: float = 0.0) -> list[str]:
-    """Run `ticks` ticks, and return all warnings."""
+    """Run several ticks, and return all warnings."""
     return [warning for tick in range(ticks) for warning in world.tick(start + tick * TICK)]
 
 
@@ -40,7 +40,7 @@ def driven(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> tu
 
 
 def float32(value: float) -> float:
-    """Return `value` rounded to a float32."""
+    """Return a number, rounded to a float32."""
     (kept,) = struct.unpack("<f", struct.pack("<f", value))
     return float(kept)
 

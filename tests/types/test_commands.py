@@ -28,7 +28,7 @@ from tests.types.random_values import AWKWARD
 
 
 def line(text: str, **values: object) -> str:
-    """Return the shell command for a request; `text` is the definition, and `values` are the values."""
+    """Return the shell command for a request; `text` is the definition of the service."""
     return rosservice_line("/x", compile_service("course_pkg/Demo", f"{text}\n---\n"), values)
 
 

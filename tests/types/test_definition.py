@@ -69,7 +69,7 @@ def refused(text: str) -> BrokenDefinition:
     ],
 )
 def test_mistake_has_its_place_and_remedy(text: str, line: int, column: int, remedy: str) -> None:
-    """The error message says at which line and column the mistake is, and how to correct it."""
+    """If a definition is invalid, the error message contains the line, the column and a correction."""
     error = refused(text)
     assert (error.line, error.column) == (line, column), error
     assert remedy in error.remedy
@@ -97,19 +97,19 @@ def test_the_message_shows_the_line_with_a_mark() -> None:
     ],
 )
 def test_definitions_that_ros_accepts(text: str) -> None:
-    """Empty requests, Windows line ends, tabs, comments and constants are accepted."""
+    """The parser accepts empty requests, Windows line ends, tabs, comments and constants."""
     assert compile_service("course_pkg/Good", text).name == "course_pkg/Good"
 
 
 def test_a_message_has_no_halves() -> None:
-    """In a message definition, a line --- is refused."""
+    """The parser refuses a line --- in a message definition."""
     with pytest.raises(BrokenDefinition, match="a message cannot have a --- line"):
         compile_message("course_pkg/Broken", "int8 x\n---\n")
 
 
 @pytest.mark.parametrize("name", ["Demo", "a/b/c", "/Demo", "course_pkg/"])
 def test_a_type_needs_its_package(name: str) -> None:
-    """A type name that does not have the form package/Type is refused."""
+    """The parser refuses a type name that does not have the form package/Type."""
     with pytest.raises(UnknownType, match="package/Type"):
         compile_service(name, "---\n")
 

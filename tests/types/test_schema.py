@@ -39,7 +39,7 @@ def test_limits_are_strings() -> None:
 
 
 def test_nested_fields_are_described() -> None:
-    """The description of an array has a length and an element type, and that of a message has fields."""
+    """An array's description has a length and an element type, and a message's description has fields."""
     _, fields = described()
     assert fields["way"]["length"] == 2
     assert [part["name"] for part in fields["way"]["item"]["fields"]] == ["x", "y", "z"]

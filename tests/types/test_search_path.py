@@ -30,7 +30,7 @@ def test_all_types_on_the_path_are_listed(packages: Path) -> None:
 
 
 def test_a_type_that_is_new_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A new definition is found by the next search."""
+    """The next search finds a new definition."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(UnknownType):
         service_type("late_pkg/Late")
@@ -51,7 +51,7 @@ def test_a_type_that_is_new_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyP
     ],
 )
 def test_an_unknown_service_type_gets_advice(name: str, advice: str) -> None:
-    """The error message contains the name, and similar names or other advice."""
+    """If a type does not exist, the error message contains its name, and similar names or other advice."""
     with pytest.raises(UnknownType) as caught:
         service_type(name)
     assert advice in str(caught.value)
@@ -89,7 +89,7 @@ def test_the_file_counts_and_not_the_built_type(built_package: Path) -> None:
 
 
 def test_errors_name_the_file(built_package: Path) -> None:
-    """The error message for an invalid text contains the file and the line."""
+    """The error message for an invalid definition contains the file and the line."""
     file = built_package / "msg" / "Say.msg"
     file.write_text("int8\n")
     with pytest.raises(BrokenDefinition, match=r"Say\.msg, line 1"):

@@ -11,7 +11,7 @@ from course_pkg.types import MessageType, compile_message, message_type, service
 
 
 def parse(type_name: str, text: object) -> object:
-    """Convert the string `text` to a value of the type `type_name`, and return the value."""
+    """Convert a string to a value of the given type, and return the value."""
     return compile_message("course_pkg/One", f"{type_name} x\n").parse({"x": text})["x"]
 
 

@@ -83,7 +83,7 @@ def test_fields_have_type_kind_and_parts(mixed: MessageType) -> None:
 def test_integers_have_the_range_of_their_type(
     mixed: MessageType, refusal: Callable[..., FieldError], name: str, low: int, high: int
 ) -> None:
-    """The smallest and the largest number of an integer type are valid, and numbers outside are not valid."""
+    """An integer type's smallest and largest numbers are valid, and numbers outside of this range are not."""
     for edge in (low, high):
         assert mixed.check({**mixed.default(), name: edge})[name] == edge
     for beyond in (low - 1, high + 1):
@@ -144,7 +144,7 @@ def test_errors_name_the_path(refusal: Callable[..., FieldError]) -> None:
 
 
 def test_a_fixed_array_wants_its_length(refusal: Callable[..., FieldError]) -> None:
-    """For an array of fixed length, the error message contains the given and the expected length."""
+    """If an array of fixed length is wrong, the error message contains the given and the expected length."""
     error = refusal(three=[1, 2])
     assert "2 elements were given" in str(error)
     assert "exactly 3" in error.allowed

@@ -19,8 +19,8 @@ from tornado.web import Application
 def served(application: Callable[[int], AbstractContextManager[Application]]) -> Iterator[str]:
     """Serve an application on a thread during the `with` block; yield the address, without a final slash.
 
-    The thread calls `application` with the port, and enters the context manager that `application` returns.
-    At the end of the `with` block, the thread leaves this context manager.
+    The thread calls `application` with the port, and enters the context manager that this call returns. At
+    the end of the `with` block, the thread leaves this context manager.
     """
     (listening,) = bind_sockets(0, "127.0.0.1")
     port = listening.getsockname()[1]

@@ -37,7 +37,7 @@ GOOD = {"package.xml": MANIFEST, "CMakeLists.txt": LISTS, "srv/Box.srv": BOX}
 
 
 def spoilt(file: str, *changes: tuple[str, str]) -> dict[str, str]:
-    """Return the files of a good package, with the text replacements `changes` in the file `file`."""
+    """Return the files of a good package, after text replacements in one of them."""
     text = GOOD[file]
     for old, new in changes:
         assert old in text

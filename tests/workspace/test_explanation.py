@@ -295,7 +295,7 @@ def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourc
 
 
 def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None:
-    """A script without a shebang is explained even if ImageMagick's program `import` is installed."""
+    """The course explains a script without a shebang even if ImageMagick's program `import` is installed."""
     fault = explain(
         "import-im6.q16: unable to open X server `' @ error/import.c/ImportImageCommand/346.\n"
         "shell.py: line 2: syntax error near unexpected token `('"
@@ -323,7 +323,7 @@ def test_unknown_output_has_no_explanation(text: str) -> None:
 
 
 def test_unknown_message_is_quoted() -> None:
-    """For an unknown message, the problem is one line, and the position is in the student's package."""
+    """If a message is unknown, the problem is one line, and the position is in the student's package."""
     fault = explain(
         "-- Configuring\n\x1b[31mCMake Error at /usr/share/x/y.cmake:3 (message):\n  Something about\n"
         "  /home/me/ws/src/a/b.txt is\n  wrong.\nCall Stack (most recent call first):\n"

@@ -110,7 +110,7 @@ def test_kernel_finds_the_packages_after_join(root: Path) -> None:
 
 
 def test_the_courses_programs_are_never_the_students(root: Path) -> None:
-    """If a student's package is called course_pkg, the programs of this package are never started."""
+    """If a student's package is called course_pkg, rosrun never starts the programs of this package."""
     package(root, "course_pkg", client=SERVER, mine=SERVER)
     package(root, "lab_sheet", client=SERVER)
     OwnPackages(root).refresh()
@@ -138,7 +138,7 @@ def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str)
     message = packages.refresh()
     assert message.startswith("src/my_arm/package.xml cannot be read (")
     assert "my_hand" not in message
-    assert packages.refresh() == ""  # The unreadable package.xml is reported only once.
+    assert packages.refresh() == ""  # The kernel reports the unreadable package.xml only once.
     assert terminal("rosrun", "my_hand", "client").stdout == "of the student\n"
     assert terminal("rossrv", "md5", "course_pkg/geometry").returncode == 0
     assert find_executable("my_hand", "client").is_file()
@@ -162,7 +162,7 @@ def test_a_removed_package_is_not_found_any_more(root: Path) -> None:
 
 
 def test_a_link_to_a_package_is_followed_and_a_loop_is_not(root: Path, tmp_path: Path) -> None:
-    """A link to a package is followed, but a link to a parent folder is not followed."""
+    """The kernel follows a link to a package, but not a link to a parent folder."""
     package(tmp_path / "elsewhere", "my_arm", client=SERVER)
     (root / "src" / "linked").symlink_to(tmp_path / "elsewhere" / "src" / "my_arm")
     (root / "src" / "loop").symlink_to(root / "src")

@@ -36,7 +36,7 @@ def test_a_workspace_is_made_once_and_then_left_as_it_is(root: Path) -> None:
 def test_unsuitable_folder_is_refused(
     folder: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """An unsuitable folder is refused, and the error message suggests another folder."""
+    """The function refuses an unsuitable folder, and the error message suggests another folder."""
     (tmp_path / "photos").mkdir()
     (tmp_path / "photos" / "cat.jpg").write_text("")
     place = folder.format(tmp=tmp_path)

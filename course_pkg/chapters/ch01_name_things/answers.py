@@ -1,73 +1,73 @@
 """Example answers of chapter 01; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 01.1 right: a namespace and two new names
+# %% 01.1 right: uses a namespace and two new names
 def measurer_command(room):
     return f"rosrun course_pkg server __ns:=/{room} __name:=measurer getGeometry:=measure"
 
-# %% 01.1 right: every name written out
+# %% 01.1 right: writes each name with its namespace
 def measurer_command(room):
     names = [f"__name:=/{room}/measurer", f"getGeometry:=/{room}/measure"]
     return " ".join(["rosrun", "course_pkg", "server", *names])
 
-# %% 01.1 right: quoted, and with a namespace without a slash
+# %% 01.1 right: uses quotes, and a namespace without a slash
 replace('f"rosrun course_pkg server __ns:=/{room} __name:=measurer getGeometry:=measure"', "\"rosrun course_pkg server 'getGeometry:=measure' __ns:=\" + room + \" '__name:=measurer'\"")
-# %% 01.1 wrong: a global name | hint: but the service is /measure for
+# %% 01.1 wrong: gives the service a global name | hint: but the service is /measure for
 replace("getGeometry:=measure", "getGeometry:=/measure")
-# %% 01.1 wrong: no namespace | hint: The name of the service is /measure for
+# %% 01.1 wrong: uses no namespace | hint: The name of the service is /measure for
 replace("__ns:=/{room} ", "")
-# %% 01.1 wrong: the service is not renamed | hint: The service is in the namespace
+# %% 01.1 wrong: does not rename the service | hint: The service is in the namespace
 replace(" getGeometry:=measure", "")
-# %% 01.1 wrong: remapping the wrong way round | hint: the old name comes first
+# %% 01.1 wrong: exchanges the old and the new name of the service | hint: the old name comes first
 replace("getGeometry:=measure", "measure:=getGeometry")
-# %% 01.1 wrong: the node is not renamed | hint: Change the name of the
+# %% 01.1 wrong: does not rename the node | hint: Change the name of the
 replace(" __name:=measurer", "")
-# %% 01.1 wrong: only the service is in the room's namespace | hint: The node is not in the namespace of the room
+# %% 01.1 wrong: puts only the service into the room's namespace | hint: The node is not in the namespace of the room
 replace("__ns:=/{room} ", "")
 replace("getGeometry:=measure", "getGeometry:=/{room}/measure")
-# %% 01.1 wrong: always the kitchen | hint: The name of the service is wrong.
+# %% 01.1 wrong: always uses the kitchen | hint: The name of the service is wrong.
 replace("{room}", "kitchen")
-# %% 01.1 wrong: = instead of := | hint: The service still has its old
+# %% 01.1 wrong: writes = instead of := | hint: The service still has its old
 replace(":=", "=", times=3)
-# %% 01.1 wrong: spaces around := | hint: The service still has its old
+# %% 01.1 wrong: writes spaces around := | hint: The service still has its old
 replace(":=", " := ", times=3)
-# %% 01.1 wrong: another program | hint: The command has to begin with
+# %% 01.1 wrong: runs another program | hint: The command has to begin with
 replace("server", "pulse")
-# %% 01.1 wrong: roslaunch | hint: The command has to begin with
+# %% 01.1 wrong: uses roslaunch | hint: The command has to begin with
 replace("rosrun", "roslaunch")
 # %% 01.1 wrong: forgets to return | hint: without a return line
 replace("return ", "command = ")
-# %% 01.1 wrong: another name for the node | hint: The name of the node has to be `measurer`
+# %% 01.1 wrong: gives the node another name | hint: The name of the node has to be `measurer`
 replace("__name:=measurer", "__name:=measure")
-# %% 01.1 wrong: a private name for the service | hint: A name that begins with
+# %% 01.1 wrong: gives the service a private name | hint: A name that begins with
 replace("getGeometry:=", "getGeometry:=~")
-# %% 01.1 wrong: a list | hint: Return one string with spaces between
+# %% 01.1 wrong: returns a list of words | hint: Return one string with spaces between
 replace('getGeometry:=measure"', 'getGeometry:=measure".split()')
-# %% 01.1 wrong: begins with %, as in a notebook | hint: works only in a notebook. Remove
+# %% 01.1 wrong: begins the command with %, as in a notebook | hint: works only in a notebook. Remove
 replace("rosrun", "%rosrun")
-# %% 01.1 wrong: the program itself | hint: Your function has to return
+# %% 01.1 wrong: starts the program instead of returning the command | hint: Your function has to return
 replace("return ", "import subprocess\n    return subprocess.Popen(")
 replace('getGeometry:=measure"', 'getGeometry:=measure".split())')
-# %% 01.1 wrong: new names in a comment of the shell | hint: The service still has its old name
+# %% 01.1 wrong: writes the new names in a comment of the shell | hint: The service still has its old name
 def measurer_command(room):
     return f"rosrun course_pkg server # __ns:=/{room} __name:=measurer getGeometry:=measure"
-# %% 01.1 wrong: a second command | hint: The command has to begin with
+# %% 01.1 wrong: adds a second command | hint: The command has to begin with
 def measurer_command(room):
     return f"rosrun course_pkg server; rosrun course_pkg server __ns:=/{room} __name:=measurer"
 
-# %% 01.2 right: four words
+# %% 01.2 right: uses four remappings
 def viewer_command(arm):
     return (
         f"rosrun course_pkg simulator __ns:=/screen __name:={arm}_viewer "
         f"joint_states:=/{arm}/joint_states mirrored_joints:={arm}/mirrored_joints"
     )
 
-# %% 01.2 right: global names
+# %% 01.2 right: uses global names
 def viewer_command(arm):
     words = ["rosrun", "course_pkg", "simulator", "__ns:=screen", "__name:=" + arm + "_viewer"]
     words += [f"joint_states:=/{arm}/joint_states", f"mirrored_joints:=/screen/{arm}/mirrored_joints"]
     return " ".join(words)
 
-# %% 01.2 wrong: registers names without a viewer | hint: The program that your command starts is not
+# %% 01.2 wrong: registers the names at the master without a viewer | hint: The program that your command starts is not
 def viewer_command(arm):
     viewer = rosgraph.Master(f"/screen/{arm}_viewer")
     uri = rospy.get_node_uri()
@@ -75,26 +75,26 @@ def viewer_command(arm):
     viewer.registerPublisher(f"/screen/{arm}/mirrored_joints", "sensor_msgs/JointState", uri)
     return "rosrun course_pkg simulator --help"
 
-# %% 01.2 wrong: joint_states keeps its name | hint: The viewer subscribes to a
+# %% 01.2 wrong: does not remap joint_states | hint: The viewer subscribes to a
 replace("joint_states:=/{arm}/joint_states ", "")
-# %% 01.2 wrong: a relative name for joint_states | hint: The new name of the topic is relative
+# %% 01.2 wrong: gives joint_states a relative name | hint: The new name of the topic is relative
 replace("joint_states:=/{arm}", "joint_states:={arm}")
-# %% 01.2 wrong: the namespace is the arm | hint: The name of the node has to be ARM_viewer
+# %% 01.2 wrong: uses the arm as the namespace | hint: The name of the node has to be ARM_viewer
 replace("__ns:=/screen", "__ns:=/{arm}")
-# %% 01.2 wrong: no namespace | hint: The node is not in the namespace /screen.
+# %% 01.2 wrong: uses no namespace | hint: The node is not in the namespace /screen.
 replace("__ns:=/screen ", "")
-# %% 01.2 wrong: the node keeps its name | hint: The node still has its default name. Choose
+# %% 01.2 wrong: does not rename the node | hint: The node still has its default name. Choose
 replace("__name:={arm}_viewer ", "")
-# %% 01.2 wrong: mirrored_joints keeps its name | hint: The viewers of all arms publish
+# %% 01.2 wrong: does not remap mirrored_joints | hint: The viewers of all arms publish
 replace(" mirrored_joints:={arm}/mirrored_joints", "")
-# %% 01.2 wrong: a global name for mirrored_joints | hint: The topic of the viewer
+# %% 01.2 wrong: gives mirrored_joints a global name | hint: The topic of the viewer
 replace("mirrored_joints:={arm}", "mirrored_joints:=/{arm}")
-# %% 01.2 wrong: one name for all arms | hint: The name of the topic
+# %% 01.2 wrong: changes the name of the topic mirrored_joints | hint: The name of the topic
 replace("mirrored_joints:={arm}/mirrored_joints", "mirrored_joints:=mirrored_{arm}")
-# %% 01.2 wrong: always the left arm | hint: does not subscribe to the topic of its arm
+# %% 01.2 wrong: always subscribes to the left arm | hint: does not subscribe to the topic of its arm
 replace("joint_states:=/{arm}/joint_states", "joint_states:=/left/joint_states")
 
-# %% 01.3 right: the last part of each name
+# %% 01.3 right: compares the last part of each name
 def ask_wherever(last, length, width, height):
     for service in rosservice.get_service_list():
         if service.split("/")[-1] == last:
@@ -104,7 +104,7 @@ def ask_wherever(last, length, width, height):
 # %% 01.3 wrong: searches only in the first five calls | hint: The result has to depend
 replace("height):", "height, calls=[]):\n    calls.append(last)\n    if len(calls) > 5:\n        return None")
 
-# %% 01.3 right: from the lists of the master
+# %% 01.3 right: searches the service list of the master
 def ask_wherever(last, length, width, height):
     _, _, services = rosgraph.Master(rospy.get_name()).getSystemState()
     for name, providers in services:
@@ -112,7 +112,7 @@ def ask_wherever(last, length, width, height):
             response = rospy.ServiceProxy(name, geometry)(length=length, width=width, height=height)
             return response.volume
 
-# %% 01.3 right: searches only the services of the type
+# %% 01.3 right: searches only the services with the right type
 replace("get_service_list()", 'rosservice_find("course_pkg/geometry")')
 replace("\n    return None", "")
 # %% 01.3 wrong: calls each service | hint: Your function called another service
@@ -121,7 +121,7 @@ replace('if service.split("/")[-1] == last:\n            return rospy.ServicePro
             found = volume if service.split("/")[-1] == last else found""")
 replace("    for service", "    found = None\n    for service")
 replace("return None", "return found")
-# %% 01.3 wrong: only in the outermost namespace | hint: Your function called a service
+# %% 01.3 wrong: calls the name without a namespace | hint: Your function called a service
 replace("for service … return None", "return rospy.ServiceProxy(last, geometry)(length, width, height).volume")
 # %% 01.3 wrong: accepts any name that contains the last part | hint: Your function called another service
 replace("for service … return None", """for service in sorted(rosservice.get_service_list(), key=len, reverse=True):
@@ -131,51 +131,51 @@ replace("for service … return None", """for service in sorted(rosservice.get_s
 replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list(), key=len, reverse=True)")
 replace('split("/")[-1] == last', "endswith(last)")
 replace("\n    return None", "")
-# %% 01.3 wrong: the first service of the type | hint: Your function called another service
+# %% 01.3 wrong: calls the first service with the right type | hint: Your function called another service
 replace("for service … return None", """service = sorted(rosservice.rosservice_find("course_pkg/geometry"), key=lambda name: name.endswith("/" + last))[0]
     return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
-# %% 01.3 wrong: calls the last part | hint: Your function called a service
+# %% 01.3 wrong: calls the name in a fixed namespace | hint: Your function called a service
 replace("service, geometry", '"/elsewhere/" + last, geometry')
 replace("\n    return None", "")
 # %% 01.3 wrong: raises an error if there is no service | hint: Your search found no service
 replace("for service … return None", """found = [name for name in rosservice.get_service_list() if name.endswith("/" + last)]
     return rospy.ServiceProxy(found[0], geometry)(length, width, height).volume""")
-# %% 01.3 wrong: returns the name | hint: Your function returned the name
+# %% 01.3 wrong: returns the name of the service | hint: Your function returned the name
 replace("return rospy.ServiceProxy(service, geometry)(length, width, height).volume\n    return None", "return service")
-# %% 01.3 wrong: returns the response | hint: Your function returned the whole
+# %% 01.3 wrong: returns the whole response | hint: Your function returned the whole
 replace(".volume\n    return None", "")
 # %% 01.3 wrong: multiplies instead of calling | hint: Your function multiplied the sides
 replace("for service … return None", "return length * width * height")
-# %% 01.3 wrong: only one namespace deep | hint: exists, but your function returned None
+# %% 01.3 wrong: searches only in namespaces at the first level | hint: exists, but your function returned None
 replace('if service.split("/")[-1]', 'parts = service.split("/")\n        if len(parts) == 3 and parts[2]')
 replace("\n    return None", "")
 # %% 01.3 wrong: forgets to return | hint: without a return line
 replace("return rospy.ServiceProxy", "rospy.ServiceProxy")
-# %% 01.3 wrong: 0 when there is none | hint: No service has the given
+# %% 01.3 wrong: returns 0 if there is no such service | hint: No service has the given
 replace("None", "0")
-# %% 01.3 wrong: None for a volume of 0 | hint: This service responds with the volume 0,
+# %% 01.3 wrong: returns None for a volume of 0 | hint: This service responds with the volume 0,
 replace("length, width, height).volume\n", "length, width, height).volume or None\n")
-# %% 01.3 wrong: a volume of 0 becomes text | hint: This service responds with the volume 0.
+# %% 01.3 wrong: returns text for a volume of 0 | hint: This service responds with the volume 0.
 replace("length, width, height).volume\n", 'length, width, height).volume or "nothing"\n')
-# %% 01.3 wrong: another order | hint: The order of the sides
+# %% 01.3 wrong: passes the sides in another order | hint: The order of the sides
 replace("length, width, height).volume\n    return None", "width, length, height).volume")
-# %% 01.3 wrong: the area | hint: Your function returned the area.
+# %% 01.3 wrong: returns the area | hint: Your function returned the area.
 replace("for service … return None", """for name in rosservice.get_service_list():
         if name.split("/")[-1] == last:
             return rospy.ServiceProxy(name, geometry)(length, width, height).area""")
-# %% 01.3 wrong: lets an IndexError out if there is no service | hint: In this exercise, a missing
-based_on("the area")
+# %% 01.3 wrong: raises an error if there is no service with this name | hint: In this exercise, a missing
+based_on("returns the area")
 replace(".area", '.volume\n    raise rospy.ServiceException(f"nobody serves {last}")')
-# %% 01.3 wrong: sends no sides | hint: The request contains 0 for
+# %% 01.3 wrong: sends a request without the sides | hint: The request contains 0 for
 replace("(length, width, height).volume", "().volume")
 
-# %% 01.4 right: ping each
+# %% 01.4 right: pings each publisher
 def living_publishers(topic):
     publishers, subscribers, services = rosgraph.Master(rospy.get_name()).getSystemState()
     names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))
 
-# %% 01.4 right: ping all with one call
+# %% 01.4 right: pings all nodes with one call
 def living_publishers(topic):
     alive, dead = rosnode.rosnode_ping_all()
     publishers = rosgraph.Master("/me").getSystemState()[0]
@@ -186,46 +186,46 @@ def living_publishers(topic):
     found.sort()
     return found
 
-# %% 01.4 wrong: all listed nodes | hint: Your list contains a node that was
+# %% 01.4 wrong: returns all registered publishers | hint: Your list contains a node that was
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return sorted(dict(publishers).get(topic, []))")
-# %% 01.4 wrong: not sorted | hint: The names are right, but
+# %% 01.4 wrong: sorts the names in reverse order | hint: The names are right, but
 replace("name for name in names if rosnode.rosnode_ping(name, max_count=1)", "(name for name in names if rosnode.rosnode_ping(name, max_count=1)), reverse=True")
-# %% 01.4 wrong: returns the nodes that do not answer | hint: Your list contains the nodes
+# %% 01.4 wrong: returns the nodes that do not respond | hint: Your list contains the nodes
 replace("rosnode.rosnode_ping", "not rosnode.rosnode_ping")
-# %% 01.4 wrong: the name of the topic without its slash | hint: Your list is empty, but
+# %% 01.4 wrong: searches for the topic without its slash | hint: Your list is empty, but
 replace("get(topic", 'get(topic.strip("/")')
-# %% 01.4 wrong: stops at the first dead node, in the order of the names | hint: Some running nodes are missing
+# %% 01.4 wrong: stops at the first dead node in alphabetical order | hint: Some running nodes are missing
 replace("return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))", '''living = []
     for name in sorted(names):
         if not rosnode.rosnode_ping(name, max_count=1):
             break
         living.append(name)
     return living''')
-# %% 01.4 wrong: the subscribers, too | hint: One node in your list only subscribes
+# %% 01.4 wrong: also returns the subscribers | hint: One node in your list only subscribes
 replace("dict(publishers).get(topic, [])", "dict(publishers).get(topic, []) + dict(subscribers).get(topic, [])")
-# %% 01.4 wrong: the subscribers | hint: One node in your list only subscribes
+# %% 01.4 wrong: returns the subscribers | hint: One node in your list only subscribes
 replace("(publishers)", "(subscribers)")
-# %% 01.4 wrong: the nodes that publish on any topic | hint: Your list contains a node that publishes
+# %% 01.4 wrong: returns the publishers of all topics | hint: Your list contains a node that publishes
 replace("dict(publishers).get(topic, [])", "{name for _, nodes in publishers for name in nodes}")
-# %% 01.4 wrong: a topic whose name begins alike | hint: Compare the whole name of the topic
+# %% 01.4 wrong: also accepts topics whose names only begin with the given name | hint: Compare the whole name of the topic
 replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers if each.startswith(topic) for name in nodes}")
-# %% 01.4 wrong: fails for a topic without publishers | hint: A topic without a publisher
+# %% 01.4 wrong: raises an error for a topic without publishers | hint: A topic without a publisher
 replace("\n    names = dict(publishers).get(topic, [])", "")
 replace("names", "dict(publishers)[topic]")
-# %% 01.4 wrong: pings without a limit | hint: rosnode_ping sends pings forever
+# %% 01.4 wrong: pings each node without a limit | hint: rosnode_ping sends pings forever
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return sorted(name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name))")
-# %% 01.4 wrong: the number of nodes | hint: Your function returned the number
+# %% 01.4 wrong: returns the number of nodes | hint: Your function returned the number
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return len([name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name, max_count=1)])")
 # %% 01.4 wrong: returns None if no publisher is alive | hint: Return an empty list if no
 replace("1))", "1)) or None")
-# %% 01.4 wrong: a generator | hint: Your function did not return
+# %% 01.4 wrong: returns a generator | hint: Your function did not return
 replace("\n    names = dict … max_count=1))", """
     return (name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name, max_count=1))""")
 
-# %% 01.4 wrong: stops at the first dead node | hint: Some running nodes are missing
+# %% 01.4 wrong: stops at the first dead node in the master's order | hint: Some running nodes are missing
 def living_publishers(topic):
     found = []
     for n in dict(rosgraph.Master(rospy.get_name()).getSystemState()[0]).get(topic, []):
@@ -234,9 +234,9 @@ def living_publishers(topic):
         found.append(n)
     return sorted(found)
 
-# %% 01.4 wrong: one string | hint: Return a list of node names
+# %% 01.4 wrong: returns one string | hint: Return a list of node names
 replace("return sorted(", 'return ", ".join(')
-# %% 01.4 wrong: requests the topic in place of a ping | hint: did not ping every node that it returned
+# %% 01.4 wrong: calls requestTopic instead of pinging the node | hint: did not ping every node that it returned
 def living_publishers(topic):
     from xmlrpc.client import ServerProxy
 
@@ -249,7 +249,7 @@ def living_publishers(topic):
             pass
     return sorted(living)
 
-# %% 01.4 wrong: an open port counts as an answer | hint: Your list contains a node that was
+# %% 01.4 wrong: treats an open port as a response | hint: Your list contains a node that was
 def living_publishers(topic):
     import socket
     from urllib.parse import urlparse

@@ -1,4 +1,7 @@
-"""The cells before and after an answer of chapter 04 outside of its notebook; see checking/fixtures.py."""
+"""The cells that run before and after an answer of chapter 04 if it is examined without its notebook.
+
+See checking/fixtures.py.
+"""
 
 # %% before
 from course_pkg import join

@@ -1,31 +1,31 @@
 """Example answers of chapter 06; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 06.1 right: by position
+# %% 06.1 right: passes the sides by position
 def measure(service, length, width, height):
     response = rospy.ServiceProxy(service, geometry)(length, width, height)
     return response.area, response.volume
 
-# %% 06.1 right: a request, after waiting
+# %% 06.1 right: waits, and passes a request object
 def measure(service, length, width, height):
     rospy.wait_for_service(service, timeout=2)
     proxy = rospy.ServiceProxy(service, geometry)
     answer = proxy(geometryRequest(length=length, width=width, height=height))
     return [answer.area, answer.volume]
 
-# %% 06.1 wrong: computes without a call | hint: The given service was not
+# %% 06.1 wrong: calculates the results without a call | hint: The given service was not
 def measure(service, length, width, height):
     return length * width, length * width * height
 
-# %% 06.1 wrong: leaves the height out | hint: The request contains 0 for
+# %% 06.1 wrong: omits the height | hint: The request contains 0 for
 replace("(length, width, height)", "(length=length, width=width)")
-# %% 06.1 wrong: volume first | hint: The order of the results
+# %% 06.1 wrong: returns the volume first | hint: The order of the results
 replace("area, response.volume", "volume, response.area")
 
-# %% 06.1 wrong: the whole response | hint: Return only the fields `area`
+# %% 06.1 wrong: returns the whole response | hint: Return only the fields `area`
 def measure(service, length, width, height):
     return rospy.ServiceProxy(service, geometry)(length, width, height)
 
-# %% 06.1 wrong: calls twice | hint: more than once, so the server did the work again
+# %% 06.1 wrong: calls the service twice | hint: more than once, so the server did the work again
 def measure(service, length, width, height):
     proxy = rospy.ServiceProxy(service, geometry)
     return proxy(length, width, height).area, proxy(length, width, height).volume
@@ -48,10 +48,10 @@ def measure(service, length, width, height):
     rospy.ServiceProxy(service, geometry)(request)
     return request.length, request.width
 
-# %% 06.1 wrong: rounds them | hint: Return the area and the volume of
+# %% 06.1 wrong: rounds area and volume | hint: Return the area and the volume of
 replace("response.area, response.volume", "round(response.area), round(response.volume)")
-# %% 06.1 wrong: the volume only | hint: Return the area and the volume, with a comma
-based_on("the whole response")
+# %% 06.1 wrong: returns only the volume | hint: Return the area and the volume, with a comma
+based_on("returns the whole response")
 replace("(length, width, height)", "(length, width, height).volume")
 
 # %% 06.1 wrong: repeats a refused call | hint: and the function called the server again
@@ -63,16 +63,16 @@ def measure(service, length, width, height):
         response = proxy(length, width, height)
     return response.area, response.volume
 
-# %% 06.1 wrong: other sides in each second call | hint: Send the three arguments in every call
+# %% 06.1 wrong: sends other sides in every second call | hint: Send the three arguments in every call
 replace("height):", "height, calls=[]):\n    calls.append(service)\n    length = length if len(calls) % 2 else 1.0")
 
-# %% 06.1 wrong: a fixed service | hint: The given service exists, but your
+# %% 06.1 wrong: calls a fixed service | hint: The given service exists, but your
 replace("response = rospy.ServiceProxy(service, geometry)", 'r = rospy.ServiceProxy("/getGeometry", geometry)')
 replace("response.area, response", "r.area, r")
-# %% 06.1 wrong: the width first | hint: The server received the sides in
+# %% 06.1 wrong: passes the width first | hint: The server received the sides in
 replace("(length, width, height)\n", "(width, length, height)\n")
 
-# %% 06.2 right: try and except
+# %% 06.2 right: uses try and except
 def is_there(service, seconds):
     try:
         rospy.wait_for_service(service, timeout=seconds)
@@ -84,23 +84,23 @@ def is_there(service, seconds):
 replace("try: … return True", "if seconds < 1:\n        rospy.sleep(seconds)\n    return seconds > 1")
 # %% 06.2 wrong: looks only at the first five services | hint: With another service, the result was wrong.
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)\n    if len(calls) > 5:\n        return True")
-# %% 06.2 wrong: waits only if the limit is long | hint: The function returned False too early
+# %% 06.2 wrong: waits only for half of a short time limit | hint: The function returned False too early
 replace("timeout=seconds", "timeout=seconds if seconds > 2 else seconds / 2")
 # %% 06.2 wrong: calls the service, but only from the fifth time on | hint: but do not call the service
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)")
 replace("timeout=seconds)", "timeout=seconds)\n        if len(calls) > 5:\n            rospy.ServiceProxy(service, geometry)(1, 1, 1)")
-# %% 06.2 wrong: no limit | hint: The function waited longer than `seconds`.
+# %% 06.2 wrong: waits without a limit | hint: The function waited longer than `seconds`.
 replace("service, timeout=seconds", "service")
-# %% 06.2 wrong: catches the other exception | hint: Catch this exception.
+# %% 06.2 wrong: catches rospy.ServiceException | hint: Catch this exception.
 replace("rospy.ROSException", "rospy.ServiceException")
 # %% 06.2 wrong: uses the return value of wait_for_service | hint: The service exists, but the result was
 replace("rospy.wait_for_service(service, timeout=seconds)", "return bool(rospy.wait_for_service(service, timeout=seconds))")
 replace("\n    return True", "")
-# %% 06.2 wrong: looks once | hint: Wait for the service up to
+# %% 06.2 wrong: waits only for 0.1 s | hint: Wait for the service up to
 replace("timeout=seconds", "timeout=0.1")
 # %% 06.2 wrong: returns None if there is no service | hint: When the time was over
 replace("except rospy … return True", '    return True\n    except rospy.ROSException:\n        print("not there")')
-# %% 06.2 wrong: a fixed limit | hint: The function waited longer than `seconds`.
+# %% 06.2 wrong: uses a fixed time limit | hint: The function waited longer than `seconds`.
 replace("timeout=seconds", "timeout=2")
 
 # %% 06.2 wrong: always waits for the whole time | hint: The function waits although the service
@@ -111,7 +111,7 @@ def is_there(service, seconds):
     rospy.sleep(seconds)
     return service in rosservice.get_service_list()
 
-# %% 06.2 wrong: looks at the start and at the end | hint: but the function continued to wait
+# %% 06.2 wrong: checks only at the start and at the end | hint: but the function continued to wait
 import rosservice
 
 def is_there(service, seconds):
@@ -126,7 +126,7 @@ def is_there(service, seconds):
     rospy.sleep(seconds)
     return now()
 
-# %% 06.2 wrong: asks only the master | hint: The service is still registered
+# %% 06.2 wrong: checks only the registration at the master | hint: The service is still registered
 import time
 
 import rosservice
@@ -144,32 +144,32 @@ def is_there(service, seconds):
 replace("""rospy.wait_for_service(service, timeout=seconds)
     except rospy.ROSException:""", "rospy.wait_for_service(service, seconds)\n        return True\n    except Exception:")
 replace("\n    return True", "")
-# %% 06.2 wrong: except without a class | hint: catches the KeyboardInterrupt
+# %% 06.2 wrong: uses except without a class | hint: catches the KeyboardInterrupt
 based_on("catches Exception")
 replace("except Exception:", "except:")
-# %% 06.2 wrong: a string | hint: Write True and False without quotes
+# %% 06.2 wrong: returns strings | hint: Write True and False without quotes
 replace("return True", 'return "True"')
 replace("return False", 'return "False"')
-# %% 06.2 wrong: True in any case | hint: The function returned True for a
+# %% 06.2 wrong: returns True in any case | hint: The function returned True for a
 replace("return False", "pass")
 
 # %% 06.2 wrong: calls the service | hint: but do not call the service
 replace("timeout=seconds)", "timeout=seconds)\n        rospy.ServiceProxy(service, geometry)(1, 1, 1)")
 
-# %% 06.3 right: ServiceException
+# %% 06.3 right: catches rospy.ServiceException
 def volume_or_none(service, length, width, height):
     try:
         return rospy.ServiceProxy(service, geometry)(length, width, height).volume
     except rospy.ServiceException:
         return None
 
-# %% 06.3 right: waits first
+# %% 06.3 right: waits for the service first
 replace("(service, length, width, height):", """(service, length, width, height):
     try:
         rospy.wait_for_service(service, timeout=1)
     except rospy.ROSException:
         return None""")
-# %% 06.3 wrong: waits first, without catching the timeout | hint: wait_for_service raises rospy.ROSException when the timeout
+# %% 06.3 wrong: waits first, and does not catch the timeout | hint: wait_for_service raises rospy.ROSException when the timeout
 replace("    try:", "    rospy.wait_for_service(service, timeout=0.5)\n    try:")
 # %% 06.3 wrong: uses only the first six responses | hint: Read the volume from the
 replace("height):", "height, calls=[]):\n    calls.append(service)")
@@ -177,11 +177,11 @@ replace(".volume", ".volume if len(calls) < 7 else None")
 # %% 06.3 wrong: returns None for a volume of 0 | hint: The server responded, but the function
 replace(".volume", ".volume or None")
 
-# %% 06.3 wrong: hides a wrong height | hint: The function catches the exception that a wrong
+# %% 06.3 wrong: returns None for an invalid height | hint: The function catches the exception that a wrong
 replace("    try:", "    if not isinstance(height, (int, float)):\n        return None\n    try:")
 # %% 06.3 wrong: catches the KeyboardInterrupt | hint: The function catches the KeyboardInterrupt
 replace("rospy.ServiceException", "(rospy.ServiceException, KeyboardInterrupt)")
-# %% 06.3 wrong: tries again | hint: The function repeated a failed
+# %% 06.3 wrong: calls again after a failure | hint: The function repeated a failed
 def volume_or_none(service, length, width, height):
     for _ in range(2):
         try:
@@ -190,45 +190,45 @@ def volume_or_none(service, length, width, height):
             continue
     return None
 
-# %% 06.3 wrong: catches a number that is too large, too | hint: The function catches the exception that a wrong argument causes
+# %% 06.3 wrong: also catches errors from numbers that are too large | hint: The function catches the exception that a wrong argument causes
 replace("volume\n    except rospy.ServiceException:", """volume
     except (rospy.ServiceException, ArithmeticError, LookupError, TypeError, ValueError):""")
 # %% 06.3 wrong: catches Exception | hint: The function catches the exception that a wrong argument causes
 replace("rospy.ServiceException", "Exception")
-# %% 06.3 wrong: catches the other exception | hint: not rospy.ROSException
+# %% 06.3 wrong: catches rospy.ROSException | hint: not rospy.ROSException
 replace("ServiceException", "ROSException")
-# %% 06.3 wrong: catches nothing | hint: raises rospy.ServiceException, not
+# %% 06.3 wrong: catches no exception | hint: raises rospy.ServiceException, not
 replace("try: … return None", "return rospy.ServiceProxy(service, geometry)(length, width, height).volume")
 # %% 06.3 wrong: returns 0.0 instead of None | hint: The call failed, but the
 replace("None", "0.0")
-# %% 06.3 wrong: returns only after a failure | hint: the function returned None
+# %% 06.3 wrong: has a return line only for a failure | hint: the function returned None
 replace("return rospy", "rospy")
 # %% 06.3 right: checks the numbers first
 replace("(service, length, width, height):", """(service, length, width, height):
     for side in (length, width, height):
         if not isinstance(side, (int, float)):
             raise TypeError(f"{side!r} is no number")""")
-# %% 06.3 wrong: a TypeError, too | hint: The function catches the exception that a wrong argument causes
+# %% 06.3 wrong: also catches TypeError | hint: The function catches the exception that a wrong argument causes
 replace("rospy.ServiceException", "(rospy.ServiceException, TypeError)")
-# %% 06.3 wrong: an AttributeError, too | hint: The function catches the exception that a wrong argument causes
+# %% 06.3 wrong: also catches AttributeError | hint: The function catches the exception that a wrong argument causes
 replace("rospy.ServiceException", "(rospy.ServiceException, AttributeError)")
-# %% 06.3 wrong: the exception itself | hint: The call failed, but the
+# %% 06.3 wrong: returns the exception | hint: The call failed, but the
 replace(":\n        return None", " as error:\n        return error")
-# %% 06.3 wrong: the text of the error | hint: The call failed, but the
+# %% 06.3 wrong: returns the error message | hint: The call failed, but the
 replace(":\n        return None", " as error:\n        return str(error)")
-# %% 06.3 wrong: the area | hint: Return the field `volume` of the
+# %% 06.3 wrong: returns the area | hint: Return the field `volume` of the
 replace(".volume", ".area")
 
 # %% 06.3 wrong: converts a string | hint: Do not convert the arguments
 replace("(length, width, height).volume", "(float(length), width, height).volume")
-# %% 06.3 wrong: computes the volume | hint: The function returned the product
+# %% 06.3 wrong: calculates the volume without a call | hint: The function returned the product
 replace("rospy.ServiceProxy(service, geometry)(length, width, height).volume", "length * width * height")
-# %% 06.3 wrong: passes a refusal on | hint: This failed call raised rospy.ServiceException
+# %% 06.3 wrong: does not catch a refusal | hint: This failed call raised rospy.ServiceException
 replace("rospy.ServiceException:", 'rospy.ServiceException as error:\n        if "unavailable" not in str(error):\n            raise')
-# %% 06.3 wrong: calls twice | hint: The function called the service more than once.
+# %% 06.3 wrong: calls the service twice | hint: The function called the service more than once.
 replace("        return rospy", "        rospy.ServiceProxy(service, geometry)(length, width, height)\n        return rospy")
 
-# %% 06.4 right: a function for the thread
+# %% 06.4 right: uses a function for the thread
 def first_answer(services, length, width, height):
     def ask_one(proxy, answers):
         try:
@@ -274,7 +274,7 @@ def first_answer(services, length, width, height):
 
 # %% 06.4 wrong: calls only in the first nine calls | hint: Call these services each time
 replace("height):", "height, calls=[]):\n    calls.append(services)\n    if len(calls) > 9:\n        return None")
-# %% 06.4 right: the error ends the thread
+# %% 06.4 right: lets the error end the thread
 def ask(proxy, sides, answers):
     answers.append(proxy(*sides))
 
@@ -291,7 +291,7 @@ def first_answer(services, length, width, height):
         if answers:
             return answers[0].volume
 
-# %% 06.4 right: a future
+# %% 06.4 right: uses a future
 from concurrent.futures import ThreadPoolExecutor, TimeoutError as TooLate
 
 
@@ -305,52 +305,52 @@ def first_answer(services, length, width, height):
             pool.shutdown(wait=False)
     return None
 
-# %% 06.4 wrong: two seconds | hint: The function waits too long for
+# %% 06.4 wrong: waits two seconds for each service | hint: The function waits too long for
 replace("timeout=1", "timeout=2")
-# %% 06.4 wrong: a limit that is too short | hint: The first service responds after 0.6
+# %% 06.4 wrong: waits 0.4 s for each service | hint: The first service responds after 0.6
 replace("timeout=1", "timeout=0.4")
-# %% 06.4 wrong: waits 0.8 s | hint: Wait one full second for each service
+# %% 06.4 wrong: waits 0.8 s for each service | hint: Wait one full second for each service
 replace("timeout=1", "timeout=0.8")
-# %% 06.4 wrong: calls two services only | hint: try all services
+# %% 06.4 wrong: calls only two services | hint: try all services
 replace("services:", "services[:2]:")
 # %% 06.4 wrong: skips a volume of 0 | hint: The first service responded with the
 replace("if answers:", "if answers and answers[0]:")
 # %% 06.4 wrong: waits for the thread without a limit | hint: The function waits forever for
 replace("timeout=1", "")
-# %% 06.4 wrong: no thread | hint: The function waits forever for
+# %% 06.4 wrong: uses no thread | hint: The function waits forever for
 replace("def ask_one(proxy, answers)", "for service in services")
 replace("answers.append(proxy(length, width, height).volume)", "return rospy.ServiceProxy(service, geometry)(length, width, height).volume")
 replace("pass … answers[0]", "continue")
 # %% 06.4 wrong: gives up after the first failure | hint: try all services
-based_on("no thread")
+based_on("uses no thread")
 replace("for service in services:\n        try:", "try:\n        for service in services:")
 replace("    except rospy.ServiceException:\n            continue\n", "except rospy.ServiceException:\n    ")
 # %% 06.4 wrong: gives up after a frozen server | hint: The first service does not
 replace("if answers:\n            return answers[0]", "if asker.is_alive():\n            return None\n        if answers:\n            return answers[0]")
-# %% 06.4 wrong: the last response | hint: The function returned the volume
+# %% 06.4 wrong: returns the last response | hint: The function returned the volume
 replace("    for service in services:", "    found = None\n    for service in services:")
 replace("return answers[0]\n    return None", "found = answers[0]\n    return found")
-# %% 06.4 wrong: calls all of them | hint: The first service responded, but the
+# %% 06.4 wrong: calls all services | hint: The first service responded, but the
 replace("    for service in services:", "    found = []\n    for service in services:")
 replace("return answers[0]\n    return None", "found.append(answers[0])\n    return found[0] if found else None")
-# %% 06.4 wrong: catches nothing | hint: A failed call ended the
+# %% 06.4 wrong: catches no exception | hint: A failed call ended the
 replace("def ask_one … return None", """for service in services:
         return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
-# %% 06.4 wrong: the whole response | hint: Return only the field `volume`
+# %% 06.4 wrong: returns the whole response | hint: Return only the field `volume`
 replace("height).volume", "height)")
-# %% 06.4 wrong: the area | hint: Return the volume from the response of
+# %% 06.4 wrong: returns the area | hint: Return the volume from the response of
 replace(".volume", ".area")
-# %% 06.4 wrong: an error at the end | hint: and an exception ended the function
+# %% 06.4 wrong: raises an error if no service responds | hint: and an exception ended the function
 replace("    return None", '    raise rospy.ServiceException("no service responded")')
-# %% 06.4 wrong: 0 if there is none | hint: No service responded, but the function
+# %% 06.4 wrong: returns 0 if no service responds | hint: No service responded, but the function
 replace("    return None", "    return 0.0")
 # %% 06.4 wrong: forgets to return | hint: without a return line
 replace("return answers[0]", "print(answers[0])")
 
-# %% 06.4 wrong: one list for all calls | hint: The late response of the
+# %% 06.4 wrong: uses one list for the responses of all calls | hint: The late response of the
 replace("\n        answers = []", "")
 replace("    for service in services:", "    answers = []\n    for service in services:")
-# %% 06.4 right: the function of the notebook, in a generator
+# %% 06.4 right: uses the function of the notebook in a generator
 def ask_quietly(*arguments):
     try:
         ask(*arguments)
@@ -371,14 +371,14 @@ def answers_of(services, sides):
 def first_answer(services, *sides):
     return next((answer.volume for answer in answers_of(services, sides)), None)
 
-# %% 06.4 right: waits a second for each service
+# %% 06.4 right: always waits one second for each service
 replace("asker.join(timeout=1)", "rospy.sleep(1)")
 # %% 06.4 wrong: sends other sides | hint: The request was repeated or
 replace("proxy(length, width, height)", "proxy(0, 0, 0)")
-# %% 06.4 wrong: only the first three services | hint: The last service would respond
+# %% 06.4 wrong: calls only the first two services | hint: The last service would respond
 replace("in services:", "in services[:2]:")
 
-# %% 06.5 right: myargv and float
+# %% 06.5 right: uses myargv and float
 def read_sides(argv):
     try:
         sides = [float(text) for text in rospy.myargv(argv)[1:]]
@@ -386,7 +386,7 @@ def read_sides(argv):
         return None
     return sides if len(sides) == 3 else None
 
-# %% 06.5 right: unpacks them
+# %% 06.5 right: unpacks the arguments
 replace("sides = [float(text) for text in rospy.myargv(argv)[1:]]", """_, length, width, height = rospy.myargv(argv=argv)
         return [float(length), float(width), float(height)]""")
 replace("\n    return sides if len(sides) == 3 else None", "")
@@ -394,25 +394,25 @@ replace("\n    return sides if len(sides) == 3 else None", "")
 replace("argv):", "argv, calls=[]):\n    calls.append(argv)\n    if len(calls) > 8:\n        return None")
 # %% 06.5 wrong: keeps the arguments of ROS | hint: Arguments with := are for ROS. Use
 replace("rospy.myargv(argv)", "argv")
-# %% 06.5 wrong: knows three arguments of ROS | hint: Arguments with := are for ROS. Use
+# %% 06.5 wrong: removes only three arguments of ROS | hint: Arguments with := are for ROS. Use
 replace("rospy.myargv(argv)", '[text for text in argv if text.split(":=")[0] not in ("__name", "__log", "getGeometry")]')
-# %% 06.5 wrong: counts the program's name | hint: The function returned None. Read the
+# %% 06.5 wrong: reads the program's name as an argument | hint: The function returned None. Read the
 replace("(argv)[1:]", "(argv)")
-# %% 06.5 wrong: two sides and the program's name | hint: The first item of the
+# %% 06.5 wrong: returns the program's name and two sides | hint: The first item of the
 replace("try: … 3 else None", "own = rospy.myargv(argv)\n    return [float(text) for text in own[:3]] if len(own) == 4 else None")
-# %% 06.5 wrong: strings | hint: The function returned strings. Convert
+# %% 06.5 wrong: returns strings | hint: The function returned strings. Convert
 replace("try: … return None", "sides = rospy.myargv(argv)[1:]")
 # %% 06.5 wrong: ignores a fourth argument | hint: Four numbers are too many. Return
 replace("argv)[1:]", "argv)[1:4]")
-# %% 06.5 wrong: does not catch the error | hint: float('wide') raises
+# %% 06.5 wrong: does not catch ValueError | hint: float('wide') raises
 replace("try: … return None", "sides = [float(text) for text in rospy.myargv(argv)[1:]]")
-# %% 06.5 wrong: digits and a point only | hint: -1.5 is a number
-based_on("does not catch the error")
+# %% 06.5 wrong: accepts only digits and a point | hint: -1.5 is a number
+based_on("does not catch ValueError")
 replace("[1:]", '[1:] if text.replace(".", "", 1).isdigit()')
-# %% 06.5 wrong: digits only | hint: 1.5 is a number, too
-based_on("does not catch the error")
+# %% 06.5 wrong: accepts only digits | hint: 1.5 is a number, too
+based_on("does not catch ValueError")
 replace("[1:]", "[1:] if text.isdigit()")
-# %% 06.5 wrong: drops the sign | hint: -1.5 is a number, too, so
+# %% 06.5 wrong: ignores the sign | hint: -1.5 is a number, too, so
 replace("float(text)", "abs(float(text))")
 # %% 06.5 wrong: skips an argument that is not a number | hint: One argument is a word. Return
 replace("try:\n        sides = [float(text) for text in rospy.myargv(argv)[1:]]\n    except ValueError:\n        return None", """sides = []
@@ -422,7 +422,7 @@ replace("try:\n        sides = [float(text) for text in rospy.myargv(argv)[1:]]\
         except ValueError:
             continue""")
 
-# %% 06.5 wrong: ends the program | hint: The function ends the program. Return
+# %% 06.5 wrong: exits the program | hint: The function ends the program. Return
 import sys
 def read_sides(argv):
     own = rospy.myargv(argv)[1:]
@@ -430,23 +430,23 @@ def read_sides(argv):
         sys.exit("usage: client length width height")
     return [float(text) for text in own]
 
-# %% 06.5 wrong: the arguments of this program | hint: Read the numbers from `argv`
+# %% 06.5 wrong: reads the arguments of the current process | hint: Read the numbers from `argv`
 replace("(argv)[1:]", "()[1:]")
-# %% 06.5 wrong: whole numbers | hint: A side can be a
+# %% 06.5 wrong: converts the numbers to int | hint: A side can be a
 replace("float(text)", "int(float(text))")
 # %% 06.5 wrong: accepts two numbers | hint: Two numbers are not enough
 replace("len(sides) == 3", "len(sides) <= 3")
-# %% 06.5 wrong: unpacks them outside of try | hint: The function raised an exception
-based_on("unpacks them")
+# %% 06.5 wrong: unpacks the arguments outside of try | hint: The function raised an exception
+based_on("unpacks the arguments")
 replace("try:\n        _, length, width, height = rospy.myargv(argv=argv)", "_, length, width, height = rospy.myargv(argv=argv)\n    try:")
 
-# %% 06.5 wrong: a tuple | hint: Return a list, not a tuple
+# %% 06.5 wrong: returns a tuple | hint: Return a list, not a tuple
 replace("return sides if", "return tuple(sides) if")
 
-# %% 06.6 right: functions
+# %% 06.6 right: uses functions
 solution()
 
-# %% 06.6 right: one block
+# %% 06.6 right: writes all code in one block
 """%%writefile fits.py
 #!/usr/bin/env python3
 import sys
@@ -472,41 +472,41 @@ if __name__ == "__main__":
     print("fits")
 """
 
-# %% 06.6 wrong: no first line | hint: The shebang is missing: the first
+# %% 06.6 wrong: omits the shebang | hint: The shebang is missing: the first
 replace("#!/usr/bin/env python3\n", "")
-# %% 06.6 wrong: waits 6 s | hint: The program waits too long for a missing service
+# %% 06.6 wrong: waits 6 s for the service | hint: The program waits too long for a missing service
 replace("timeout=2", "timeout=6")
-# %% 06.6 wrong: sends no sides | hint: Send LENGTH, WIDTH and HEIGHT as
+# %% 06.6 wrong: sends sides of 0 | hint: Send LENGTH, WIDTH and HEIGHT as
 replace("geometry)(*sides)", "geometry)(0, 0, 0)")
-# %% 06.6 wrong: no guard | hint: Python cannot import the file
+# %% 06.6 wrong: omits the main guard | hint: Python cannot import the file
 replace('if __name__ == "__main__":\n    sys.exit(main())', "sys.exit(main())")
-# %% 06.6 wrong: no init_node | hint: The program ignored the remapping
+# %% 06.6 wrong: omits init_node | hint: The program ignored the remapping
 replace('    rospy.init_node("fits", anonymous=True)\n', "")
-# %% 06.6 wrong: an absolute name | hint: Remove the slash from the
+# %% 06.6 wrong: uses an absolute service name | hint: Remove the slash from the
 replace('"getGeometry"', '"/getGeometry"', times=2)
-# %% 06.6 wrong: sys.argv as it is | hint: Arguments with := are for ROS. Remove
+# %% 06.6 wrong: does not remove ROS's arguments from sys.argv | hint: Arguments with := are for ROS. Remove
 replace("rospy.myargv(argv)", "argv")
-# %% 06.6 wrong: calls twice | hint: The program called the service more
+# %% 06.6 wrong: calls the service twice | hint: The program called the service more
 replace("    print(\"fits\"", "    rospy.ServiceProxy(\"getGeometry\", geometry)(*sides)\n    print(\"fits\"")
-# %% 06.6 wrong: a misspelt name | hint: The program ended before the
+# %% 06.6 wrong: misspells a function of rospy | hint: The program ended before the
 replace("rospy.wait_for_service", "rospy.wait_for_servise")
-# %% 06.6 wrong: compares with < in place of <= | hint: The volume is equal to LIMIT,
+# %% 06.6 wrong: compares with < instead of <= | hint: The volume is equal to LIMIT,
 replace("volume <= limit", "volume < limit", times=2)
-# %% 06.6 wrong: the exit status is always 0 | hint: The volume in the response is larger
+# %% 06.6 wrong: always exits with status 0 | hint: The volume in the response is larger
 replace("return 0 if volume <= limit else 1", "return 0")
-# %% 06.6 wrong: True for 1 | hint: The volume in the response is at
+# %% 06.6 wrong: returns True instead of 1 | hint: The volume in the response is at
 replace("return 0 if volume <= limit else 1", "return volume <= limit")
-# %% 06.6 wrong: catches no ROSException | hint: rospy.ROSException after 2 s
+# %% 06.6 wrong: does not catch ROSException | hint: rospy.ROSException after 2 s
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ServiceException")
-# %% 06.6 wrong: catches no ServiceException | hint: Print the message of the
+# %% 06.6 wrong: does not catch ServiceException | hint: Print the message of the
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
 # %% 06.6 wrong: waits without a limit | hint: Call wait_for_service with a timeout of 2 s
 replace(", timeout=2", "")
-# %% 06.6 wrong: does not catch the error of float() | hint: float() raises ValueError for a word
+# %% 06.6 wrong: does not catch the ValueError of float() | hint: float() raises ValueError for a word
 replace("    except ValueError:\n        return None\n    return numbers", "    finally:\n        pass\n    return numbers")
-# %% 06.6 wrong: usage without its status | hint: The arguments are not four numbers
+# %% 06.6 wrong: prints the usage with exit status 0 | hint: The arguments are not four numbers
 replace("return 2", "return 0")
-# %% 06.6 wrong: examines the arguments too late | hint: The arguments were wrong, but the
+# %% 06.6 wrong: checks the number of arguments after the call | hint: The arguments were wrong, but the
 replace("if len(numbers) == 4 else None", "if len(numbers) >= 3 else None")
 replace("*sides, limit = numbers", "sides, limit = numbers[:3], numbers[3:]")
 replace("    print(\"fits\" if volume <= limit", """    if len(limit) != 1:
@@ -518,17 +518,17 @@ replace("return 0 if volume <= limit else", "return 0 if volume <= limit[0] else
 replace("[float(text) for text in rospy.myargv(argv)[1:]]", "rospy.myargv(argv)[1:]\n        numbers[:3] = [float(text) for text in numbers[:3]]")
 replace("geometry)(*sides).volume", "geometry)(*sides).volume\n        limit = float(limit)")
 replace("        return 3\n", "        return 3\n    except ValueError:\n        print(\"usage: fits.py LENGTH WIDTH HEIGHT LIMIT\")\n        return 2\n")
-# %% 06.6 wrong: prints nothing | hint: The exit status is right, but
+# %% 06.6 wrong: does not print the error message | hint: The exit status is right, but
 replace("        print(error)\n", "")
 # %% 06.6 wrong: calls without waiting | hint: The service started while the program
 replace('        rospy.wait_for_service("getGeometry", timeout=2)\n', "")
-# %% 06.6 wrong: other text | hint: The exit status is right, but
+# %% 06.6 wrong: prints other texts | hint: The exit status is right, but
 replace('print("fits"', 'print("it fits"')
-# %% 06.6 wrong: usage with a capital | hint: The exit status is right, but
+# %% 06.6 wrong: prints the usage with a capital letter | hint: The exit status is right, but
 replace("usage:", "Usage:")
-# %% 06.6 wrong: the error message as the exit status | hint: The exit status is 1, because
+# %% 06.6 wrong: returns the error message as the exit status | hint: The exit status is 1, because
 replace("        print(error)\n        return 3", "        return str(error)")
-# %% 06.6 wrong: computes the volume | hint: The volume in the response is
+# %% 06.6 wrong: calculates the volume without the response | hint: The volume in the response is
 replace("print(\"fits\" if volume", "volume = sides[0] * sides[1] * sides[2] * 1e-6\n    print(\"fits\" if volume")
-# %% 06.6 wrong: prints all answers | hint: The exit status is right, but
+# %% 06.6 wrong: prints all possible outputs | hint: The exit status is right, but
 replace('if __name__ == "__main__":\n', 'if __name__ == "__main__":\n    print("usage: x\\nfits\\ntoo large")\n')

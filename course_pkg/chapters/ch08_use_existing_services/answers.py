@@ -1,6 +1,6 @@
 """Example answers of chapter 08; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 08.1 right: asks each service for its type
+# %% 08.1 right: gets the type of each service
 def services_of(kind):
     names = []
     for name in rosservice.get_service_list():
@@ -11,10 +11,10 @@ def services_of(kind):
             continue
     return names
 
-# %% 08.1 right: the function of the module
+# %% 08.1 right: uses the function rosservice_find
 replace("names = [] … return names", "return rosservice.rosservice_find(kind)")
 
-# %% 08.1 right: the command rosservice find
+# %% 08.1 right: uses the command rosservice find
 import subprocess
 
 def services_of(kind):
@@ -31,25 +31,25 @@ def services_of(kind):
             rosgraph.Master(node_name).unregisterService(name, master.lookupService(name))
     return []
 
-# %% 08.1 wrong: fails at a dead server | hint: Your list contains a service whose server
+# %% 08.1 wrong: raises an error for a dead server | hint: Your list contains a service whose server
 replace("names = [] … return names", "return [name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind]")
 # %% 08.1 wrong: stops at a dead server | hint: The search ended at a
 replace("continue", "break")
 # %% 08.1 wrong: decides by the name of the service | hint: Your list contains services of
 replace("names = [] … return names", 'return [name for name in rosservice.get_service_list() if kind.split("/")[1].lower() in name.lower()]')
-# %% 08.1 wrong: compares the short name | hint: Your list contains a service whose type
+# %% 08.1 wrong: compares only the name of the type, without the package | hint: Your list contains a service whose type
 replace(" == kind", '.split("/")[1] == kind.split("/")[1]')
-# %% 08.1 wrong: compares the beginning | hint: Your list contains a service with
+# %% 08.1 wrong: accepts types that only contain the given type | hint: Your list contains a service with
 replace("names = [] … return names", "return [name for name in rosservice.get_service_list() if kind in rosservice.get_service_type(name)]")
-# %% 08.1 wrong: stops at the first | hint: and return after the loop
+# %% 08.1 wrong: returns only the first service | hint: and return after the loop
 replace("names.append(name)", "return [name]")
-# %% 08.1 wrong: returns the first one, as text | hint: Your function returned one string.
+# %% 08.1 wrong: returns the first service as a string | hint: Your function returned one string.
 replace("names.append(name)", "return name")
-# %% 08.1 wrong: prints them | hint: without a return line
+# %% 08.1 wrong: prints the services instead of returning them | hint: without a return line
 replace("names.append(name)", "print(name)")
 replace("\n    return names", "")
 
-# %% 08.1 wrong: stores the list in the first call | hint: Your function did not find a new service
+# %% 08.1 wrong: stores the service list of the first call | hint: Your function did not find a new service
 known = {}
 
 def services_of(kind):
@@ -58,7 +58,7 @@ def services_of(kind):
             known[name] = rosservice.get_service_type(name)
     return [name for name in known if known[name] == kind]
 
-# %% 08.1 wrong: stores the types of the first call | hint: The list contains a service that has ended since
+# %% 08.1 wrong: stores the types of earlier calls | hint: The list contains a service that has ended since
 types_of = {}
 
 def services_of(kind):
@@ -69,41 +69,41 @@ def services_of(kind):
             continue
     return [name for name in types_of if types_of[name] == kind]
 
-# %% 08.1 wrong: names with their nodes | hint: Your list contains more than
+# %% 08.1 wrong: returns the names with their nodes | hint: Your list contains more than
 replace("names = [] … return names", """listed = rosservice.get_service_list(include_nodes=True)
     return [[name, nodes] for name, nodes in listed if rosservice.get_service_type(name) == kind]""")
-# %% 08.1 wrong: the types | hint: Your list contains strings that
+# %% 08.1 wrong: returns the types instead of the names | hint: Your list contains strings that
 replace("names = [] … return names", """types = [rosservice.get_service_type(name) for name in rosservice.get_service_list()]
     return [its for its in types if its == kind]""")
-# %% 08.1 wrong: compares with the class | hint: The type of a service is
-based_on("fails at a dead server")
+# %% 08.1 wrong: compares the type with the class | hint: The type of a service is
+based_on("raises an error for a dead server")
 replace("get_service_type", "get_service_class_by_name")
-# %% 08.1 wrong: returns a dead server, too | hint: Your list contains a service whose server
+# %% 08.1 wrong: also returns the service of a dead server | hint: Your list contains a service whose server
 replace("== kind:\n                names.append(name)", "!= kind:\n                continue")
 replace("\n            continue", "\n            pass\n        names.append(name)")
 # %% 08.1 wrong: leaves the loop at a dead server | hint: The search ended at a service
 replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list())")
 replace("continue", "break")
-# %% 08.1 wrong: None for no service | hint: Return an empty list
+# %% 08.1 wrong: returns None if there is no service | hint: Return an empty list
 replace("return names", "return names or None")
-# %% 08.1 wrong: a generator | hint: Your function did not return
+# %% 08.1 wrong: returns a generator | hint: Your function did not return
 replace("names = [] … return names", "return (name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind)")
 
-# %% 08.1 wrong: gets the names once | hint: Your function found no service.
+# %% 08.1 wrong: reads the service list only once | hint: Your function found no service.
 replace("def services_of(kind):", "NAMES = rosservice.get_service_list()\n\n\ndef services_of(kind):")
 replace("in rosservice.get_service_list():", "in NAMES:")
 # %% 08.1 wrong: calls the services | hint: The function called the services to find their type
 replace("            if rosservice", "            cls = rosservice.get_service_class_by_name(name)\n            rospy.ServiceProxy(name, cls)()\n            if rosservice")
 replace("except rosservice.ROSServiceIOException", "except Exception")
-# %% 08.1 wrong: calls the services, but not in the first call | hint: The function called the services to find their type
+# %% 08.1 wrong: calls the services from the second call on | hint: The function called the services to find their type
 based_on("calls the services")
 replace("def services_of(kind):", "def services_of(kind, runs=[]):")
 replace("            rospy.ServiceProxy(name, cls)()", "            runs and rospy.ServiceProxy(name, cls)()")
 replace("    return names", "    runs.append(kind)\n    return names")
-# %% 08.1 wrong: an empty string | hint: The list contains an empty string.
+# %% 08.1 wrong: returns a list with an empty string | hint: The list contains an empty string.
 replace("    return names", '    return names or [""]')
 
-# %% 08.2 right: a handler
+# %% 08.2 right: uses a function as the handler
 def handle_lamp(request):
     on_off = rospy.ServiceProxy("/on_off", ServiceExample)
     try:
@@ -115,7 +115,7 @@ def handle_lamp(request):
 
 lamp_service = rospy.Service("/lamp", SetBool, handle_lamp)
 
-# %% 08.2 right: an object that creates its service
+# %% 08.2 right: uses an object that creates its service
 class Lamp:
     def __init__(self):
         self.on_off = rospy.ServiceProxy("/on_off", ServiceExample)
@@ -135,7 +135,7 @@ def handle_lamp(request):
 
 lamp = Lamp()
 
-# %% 08.2 right: a partial, and a lambda
+# %% 08.2 right: uses a partial function and a lambda function
 import functools
 
 
@@ -151,50 +151,50 @@ def handle_lamp(on_off, request):
 handler = functools.partial(handle_lamp, rospy.ServiceProxy("/on_off", ServiceExample))
 lamp_service = rospy.Service("/lamp", SetBool, lambda request: handler(request))
 
-# %% 08.2 wrong: catches nothing | hint: The call of /lamp failed, because
+# %% 08.2 wrong: catches no exception | hint: The call of /lamp failed, because
 replace("on_off = rospy … str(error))", 'state = rospy.ServiceProxy("/on_off", ServiceExample)(int(request.data)).state')
 # %% 08.2 wrong: waits, but does not catch the timeout | hint: did not catch rospy.ROSException
 replace("        state =", '        rospy.wait_for_service("/on_off", timeout=1)\n        state =')
-# %% 08.2 wrong: passes the refusal on | hint: The call of /lamp failed, because
+# %% 08.2 wrong: raises the refusal again | hint: The call of /lamp failed, because
 replace("return SetBoolResponse(success=False, message=str(error))", "raise rospy.ServiceException(str(error))")
-# %% 08.2 wrong: the exception as the message | hint: The message has to be
+# %% 08.2 wrong: returns the exception as the message | hint: The message has to be
 replace("str(error)", "error")
-# %% 08.2 wrong: a fixed message | hint: The message does not contain
+# %% 08.2 wrong: returns a fixed message | hint: The message does not contain
 replace("str(error)", '"it does not work"')
-# %% 08.2 wrong: success although it failed | hint: The call of /on_off failed
+# %% 08.2 wrong: returns success=True after a failed call | hint: The call of /on_off failed
 replace("success=False", "success=True")
-# %% 08.2 wrong: success if the lamp cannot be switched off | hint: The call of /on_off failed
+# %% 08.2 wrong: returns success=True if switching off fails | hint: The call of /on_off failed
 replace("success=False", "success=not request.data")
-# %% 08.2 wrong: any response is a success | hint: The lamp responded with the
+# %% 08.2 wrong: returns success=True for any response | hint: The lamp responded with the
 replace('success=state == ("ON" if request.data else "OFF")', "success=True")
-# %% 08.2 wrong: the wanted state | hint: The message is the wanted
+# %% 08.2 wrong: returns the wanted state as the message | hint: The message is the wanted
 replace("message=state", 'message="ON" if request.data else "OFF"')
-# %% 08.2 wrong: success compares with True | hint: The lamp has the wanted state
+# %% 08.2 wrong: compares the state with True | hint: The lamp has the wanted state
 replace('state == ("ON" if request.data else "OFF")', "state is request.data")
-# %% 08.2 wrong: the message is a sentence | hint: The message is wrong. Return
+# %% 08.2 wrong: returns a sentence as the message | hint: The message is wrong. Return
 replace("message=state", 'message=f"the lamp is {state}"')
-# %% 08.2 wrong: the other number | hint: The number in the request is
+# %% 08.2 wrong: exchanges the numbers 0 and 1 | hint: The number in the request is
 replace("1 if request.data else 0", "0 if request.data else 1")
-# %% 08.2 wrong: other numbers | hint: The number in the request has
+# %% 08.2 wrong: sends other numbers than 0 and 1 | hint: The number in the request has
 replace("1 if request.data else 0", "2 if request.data else 3")
-# %% 08.2 wrong: calls twice | hint: The handler called /on_off more than once
+# %% 08.2 wrong: calls /on_off twice | hint: The handler called /on_off more than once
 replace("state = on_off", "on_off(0)\n        state = on_off")
-# %% 08.2 wrong: no call | hint: The handler did not call /on_off
+# %% 08.2 wrong: does not call /on_off | hint: The handler did not call /on_off
 replace("on_off(1 if request.data else 0).state", '"ON" if request.data else "OFF"')
-# %% 08.2 wrong: a misspelt field | hint: The request has no field
+# %% 08.2 wrong: misspells a field | hint: The request has no field
 replace("1 if request.data", "1 if request.date")
-# %% 08.2 wrong: an unbound name | hint: The handler assigns a value
+# %% 08.2 wrong: uses a local variable before it has a value | hint: The handler assigns a value
 replace("\n    on_off = rospy … else 0).state", "\n    try:\n        on_off = on_off(1 if request.data else 0).state")
 replace('state == ("ON" if request.data else "OFF"), message=', 'on_off.state == ("ON" if request.data else "OFF"), message=on_off.')
-# %% 08.2 wrong: a name that does not exist | hint: The handler uses a name that does not exist
+# %% 08.2 wrong: uses a name that does not exist | hint: The handler uses a name that does not exist
 replace("(\"/on_off\", ServiceExample)", "(\"/on_off\", ServiceExmaple)")
-# %% 08.2 wrong: the result of a call as the handler | hint: Pass the name of the handler without
+# %% 08.2 wrong: passes the result of the handler instead of the handler | hint: Pass the name of the handler without
 replace('SetBool, handle_lamp)', 'SetBool, handle_lamp(SetBool._request_class(data=False)))')
 
-# %% 08.2 right: waits for the lamp, but not for long
+# %% 08.2 right: waits for the lamp for at most 1 s
 replace("    try:\n", '    try:\n        rospy.wait_for_service("/on_off", timeout=1)\n')
 replace("except rospy.ServiceException", "except (rospy.ServiceException, rospy.ROSException)")
-# %% 08.2 right: an object, without handle_lamp
+# %% 08.2 right: uses an object, and no function handle_lamp
 class Bridge:
     STATES = {True: (1, "ON"), False: (0, "OFF")}
 
@@ -217,7 +217,7 @@ replace("state = on_off(1 if request.data else 0).state", """for _ in range(3):
             if state == ("ON" if request.data else "OFF"):
                 break""")
 
-# %% 08.3 right: calls set, reads the report, compares
+# %% 08.3 right: calls set, reads the report, and compares
 def move(switch, to_open):
     answer = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)
     stands = rospy.ServiceProxy(f"{switch}/report", Trigger)().message
@@ -238,7 +238,7 @@ def move(switch, to_open):
         return "was there"
     return "failed"
 
-# %% 08.3 wrong: success False is a failure | hint: success=False does not always mean
+# %% 08.3 wrong: treats success=False as a failure | hint: success=False does not always mean
 replace('stands != ("open" if to_open else "closed")', "not answer.success")
 replace('answer.success else "was there"', 'stands == ("open" if to_open else "closed") else "failed"')
 # %% 08.3 wrong: does not read the report | hint: The switch responded with success=False and is in the wrong
@@ -248,7 +248,7 @@ replace('answer = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)', '''if 
         return "moved"''')
 replace('if stands ! … was there"', 'return "was there" if stands == ("open" if to_open else "closed") else "failed"')
 
-# %% 08.3 wrong: reads the message | hint: The switch is in the wanted
+# %% 08.3 wrong: reads the position from the message of set | hint: The switch is in the wanted
 def move(switch, to_open):
     words = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).message
     rospy.ServiceProxy(f"{switch}/report", Trigger)()
@@ -256,15 +256,15 @@ def move(switch, to_open):
         return "moved"
     return "was there" if "already" in words else "failed"
 
-# %% 08.3 wrong: returns success | hint: Your function returned a bool
+# %% 08.3 wrong: returns the field success | hint: Your function returned a bool
 replace('answer = rospy … was there"', 'return rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).success')
-# %% 08.3 wrong: returns the message | hint: Your function returned the message
-based_on("returns success")
+# %% 08.3 wrong: returns the field message | hint: Your function returned the message
+based_on("returns the field success")
 replace("success", "message")
 # %% 08.3 wrong: moves in the opposite direction | hint: The request has the wrong
 replace("SetBool)(to_open)", "SetBool)(not to_open)")
 
-# %% 08.3 wrong: toggles | hint: Call only the services `set`
+# %% 08.3 wrong: calls toggle | hint: Call only the services `set`
 def move(switch, to_open):
     wanted = "open" if to_open else "closed"
     if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted:
@@ -273,17 +273,17 @@ def move(switch, to_open):
     return "moved" if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted else "failed"
 
 # %% 08.3 wrong: calls set only if the report differs | hint: The function did not call `set`.
-based_on("toggles")
+based_on("calls toggle")
 replace('"{switch}/toggle", Trigger)()', '"{switch}/set", SetBool)(to_open)')
 # %% 08.3 wrong: repeats until success is True | hint: The function called `set` more than
-based_on("toggles")
+based_on("calls toggle")
 replace('if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted: … Trigger)()', '''for _ in range(3):
         if rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).success:
             break
     else:
         return "was there" if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted else "failed"''')
 
-# %% 08.3 wrong: reads the report before set | hint: The switch responded with success=True, but
+# %% 08.3 wrong: reads the report only before set | hint: The switch responded with success=True, but
 def move(switch, to_open):
     stands = rospy.ServiceProxy(f"{switch}/report", Trigger)().message
     answer = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)
@@ -291,19 +291,19 @@ def move(switch, to_open):
         return "was there"
     return "moved" if answer.success else "failed"
 
-# %% 08.3 wrong: compares with True | hint: Compare the message
+# %% 08.3 wrong: compares the message with a bool | hint: Compare the message
 replace('("open" if to_open else "closed")', "to_open")
 # %% 08.3 wrong: forgets to return | hint: without a return line
 replace('answer = rospy … was there"', """rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)
     rospy.ServiceProxy(f"{switch}/report", Trigger)()""")
-# %% 08.3 wrong: success True means that it was there | hint: The switch responded with success=True and is in the wanted position, so
+# %% 08.3 wrong: treats success=True as "was there" | hint: The switch responded with success=True and is in the wanted position, so
 replace('"moved" if answer.success else "was there"', '"was there" if answer.success else "moved"')
-# %% 08.3 wrong: ignores success | hint: it was in this position before
+# %% 08.3 wrong: ignores the field success | hint: it was in this position before
 replace(' if answer.success else "was there"', "")
-# %% 08.3 wrong: with a capital letter | hint: Write the string exactly as
+# %% 08.3 wrong: writes the result with a capital letter | hint: Write the string exactly as
 replace('"moved"', '"Moved"')
 
-# %% 08.3 wrong: a thread calls set again | hint: The function called `set` more than
+# %% 08.3 wrong: calls set again in a thread | hint: The function called `set` more than
 import threading
 
 
@@ -315,7 +315,7 @@ def move(switch, to_open):
         return "failed"
     return "moved" if answer.success else "was there"
 
-# %% 08.3 wrong: compares two reports | hint: use the field `success`, not
+# %% 08.3 wrong: compares two reports instead of reading success | hint: use the field `success`, not
 def move(switch, to_open):
     report = rospy.ServiceProxy(f"{switch}/report", Trigger)
     before = report().message
@@ -325,47 +325,47 @@ def move(switch, to_open):
         return "failed"
     return "moved" if before != after else "was there"
 
-# %% 08.4 right: a dict in one word
+# %% 08.4 right: passes the dict as one argument
 def call_line(service, fields):
     return f"rosservice call {service} {shlex.quote(json.dumps(fields))}"
 
-# %% 08.4 right: yaml
+# %% 08.4 right: uses yaml
 import yaml
 
 def call_line(service, fields):
     text = yaml.safe_dump(fields, default_flow_style=True, width=10_000).strip()
     return " ".join(["rosservice", "call", service, shlex.quote(text)])
 
-# %% 08.4 right: joined
+# %% 08.4 right: uses shlex.join
 replace('f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', 'shlex.join(["rosservice", "call", service, json.dumps(fields)])')
-# %% 08.4 wrong: no quotes at all | hint: bash has split the fields
+# %% 08.4 wrong: uses no quotes | hint: bash has split the fields
 replace("shlex.quote(json.dumps(fields))", "json.dumps(fields)")
-# %% 08.4 wrong: values by position | hint: rosservice reads -5 as an
+# %% 08.4 wrong: writes the values by position | hint: rosservice reads -5 as an
 replace("{shlex.quote(json.dumps(fields))}", "{' '.join(map(str, fields.values()))}")
-# %% 08.4 wrong: values by position, after -- | hint: because rosservice uses the order
-based_on("values by position")
+# %% 08.4 wrong: writes the values by position after -- | hint: because rosservice uses the order
+based_on("writes the values by position")
 replace("{service} ", "{service} -- ")
-# %% 08.4 wrong: the dict as Python shows it | hint: YAML cannot read a dict
+# %% 08.4 wrong: writes the dict as Python shows it | hint: YAML cannot read a dict
 replace("json.dumps", "str")
 
-# %% 08.4 wrong: yaml without quotes | hint: YAML read a value that differs
+# %% 08.4 wrong: writes YAML without quotes | hint: YAML read a value that differs
 def call_line(service, fields):
     text = json.dumps(fields).replace('"', "")
     return f"rosservice call {service} {shlex.quote(text)}"
 
-# %% 08.4 wrong: double quotes by hand | hint: YAML cannot read a dict
+# %% 08.4 wrong: adds double quotes without shlex | hint: YAML cannot read a dict
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', "'rosservice call {service} \"{fields}\"'")
-# %% 08.4 wrong: single quotes by hand | hint: bash has split the fields
+# %% 08.4 wrong: adds single quotes without shlex | hint: bash has split the fields
 replace("{shlex.quote(json.dumps(fields))}", "'{json.dumps(fields)}'")
-# %% 08.4 wrong: writes them as arguments of Python | hint: YAML reads a=5 as a string
+# %% 08.4 wrong: writes the fields as NAME=VALUE | hint: YAML reads a=5 as a string
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}={value}" for name, value in fields.items())')
-# %% 08.4 wrong: writes them as remappings | hint: rosservice does not receive arguments
+# %% 08.4 wrong: writes the fields as NAME:=VALUE | hint: rosservice does not receive arguments
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}:={value}" for name, value in fields.items())')
-# %% 08.4 wrong: as in a notebook | hint: The character ! works only in a
+# %% 08.4 wrong: begins the line with !, as in a notebook | hint: The character ! works only in a
 replace("rosservice", "!rosservice")
 # %% 08.4 wrong: quotes the whole line | hint: Because of the quotes, bash
 replace('f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', 'shlex.quote(f"rosservice call {service} {json.dumps(fields)}")')
-# %% 08.4 wrong: leaves the fields out | hint: rosservice received no values. Write the
+# %% 08.4 wrong: omits the fields | hint: rosservice received no values. Write the
 replace(" {shlex.quote(json.dumps(fields))}", "")
 
 # %% 08.4 wrong: calls the service | hint: Your function called the service. Return
@@ -380,43 +380,43 @@ def call_line(service, fields):
     rosservice.call_service(service, [fields])
     return "rosservice call --help"
 
-# %% 08.4 wrong: a tool that does not exist | hint: The command is missing in
+# %% 08.4 wrong: writes a tool that does not exist | hint: The command is missing in
 replace("call {service}", "{service}")
-# %% 08.4 wrong: a fixed service | hint: The name of the service
+# %% 08.4 wrong: writes a fixed service | hint: The name of the service
 replace("call {service}", "call /sum")
-# %% 08.4 wrong: calls twice | hint: The line calls the service more than once
+# %% 08.4 wrong: calls the service twice | hint: The line calls the service more than once
 replace('return f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', """line = f"rosservice call {service} {shlex.quote(json.dumps(fields))}"
     return line + "; " + line""")
-# %% 08.4 wrong: as a call in Python | hint: without parentheses
+# %% 08.4 wrong: writes the call as in Python | hint: without parentheses
 replace(" {service} {shlex.quote(json.dumps(fields))}", "({service}, {fields})")
-# %% 08.4 wrong: a list of words | hint: Your function returned a list
-based_on("joined")
+# %% 08.4 wrong: returns a list of words | hint: Your function returned a list
+based_on("uses shlex.join")
 replace("shlex.join(", "list(")
 
-# %% 08.4 wrong: the quotes of Windows | hint: bash has replaced $HOME
+# %% 08.4 wrong: uses quotes for Windows | hint: bash has replaced $HOME
 import subprocess
 
 
 def call_line(service, fields):
     return subprocess.list2cmdline(["rosservice", "call", service, json.dumps(fields)])
 
-# %% 08.4 wrong: another command makes the fields | hint: A program other than rosservice makes the call.
+# %% 08.4 wrong: creates the fields with another command | hint: A program other than rosservice makes the call.
 replace("{shlex.quote(json.dumps(fields))}", '\\"$(echo {shlex.quote(json.dumps(fields))})\\"')
-# %% 08.4 wrong: leaves inner dicts out | hint: A field in an inner
+# %% 08.4 wrong: omits inner dicts | hint: A field in an inner
 replace("json.dumps(fields)", "json.dumps({name: value for name, value in fields.items() if not isinstance(value, dict)})")
-# %% 08.4 wrong: a program in Python makes the call | hint: A program other than rosservice makes the call.
+# %% 08.4 wrong: calls the service with a Python program | hint: A program other than rosservice makes the call.
 def call_line(service, fields):
     code = f"import rosservice; rosservice.call_service({service!r}, [{fields!r}])"
     return f"python3 -c {shlex.quote(code)} # rosservice call"
 
-# %% 08.5 right: fills the request as the tool does
+# %% 08.5 right: fills the request with fill_message_args
 def call_any(service, fields):
     cls = rosservice.get_service_class_by_name(service)
     request = cls._request_class()
     genpy.message.fill_message_args(request, [fields])
     return rospy.ServiceProxy(service, cls)(request)
 
-# %% 08.5 right: the class by its name
+# %% 08.5 right: gets the class from the name of the type
 import roslib.message
 
 def call_any(service, fields):
@@ -428,22 +428,22 @@ def call_any(service, fields):
 
 # %% 08.5 wrong: passes the dict without a list | hint: The second argument of fill_message_args
 replace("[fields]", "fields")
-# %% 08.5 wrong: fills the class of the service | hint: an object of the wrong class
+# %% 08.5 wrong: fills the service class instead of a request | hint: an object of the wrong class
 replace("cls._request_class()", "cls()")
-# %% 08.5 wrong: calls by keywords | hint: The field `camera_info` needs a message,
+# %% 08.5 wrong: passes the fields as keyword arguments | hint: The field `camera_info` needs a message,
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, rosservice.get_service_class_by_name(service))(**fields)")
-# %% 08.5 wrong: by position | hint: The values are in the wrong fields.
-based_on("calls by keywords")
+# %% 08.5 wrong: passes the fields by position | hint: The values are in the wrong fields.
+based_on("passes the fields as keyword arguments")
 replace("(**fields)", "(*fields.values())")
 # %% 08.5 wrong: passes the dict to the proxy | hint: The request does not contain
-based_on("calls by keywords")
+based_on("passes the fields as keyword arguments")
 replace("(**fields)", "(fields)")
-# %% 08.5 wrong: the name of the type for the class | hint: Your function used the name
-based_on("calls by keywords")
+# %% 08.5 wrong: passes the name of the type instead of the class | hint: Your function used the name
+based_on("passes the fields as keyword arguments")
 replace("get_service_class_by_name", "get_service_type")
-# %% 08.5 wrong: a fixed type | hint: Your proxy has the wrong type for this service.
+# %% 08.5 wrong: uses a fixed type | hint: Your proxy has the wrong type for this service.
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, SetBool)(**fields)")
-# %% 08.5 wrong: a table of types | hint: Your function has no type for
+# %% 08.5 wrong: uses a table of types | hint: Your function has no type for
 replace("rosservice.get_service_class_by_name(service)", '{"/switch/set": SetBool}[service]')
 # %% 08.5 wrong: stores the type of each name | hint: This service had another type before
 kinds = {}
@@ -455,40 +455,40 @@ def call_any(service, fields):
     genpy.message.fill_message_args(request, [fields])
     return rospy.ServiceProxy(service, kinds[service])(request)
 
-# %% 08.5 wrong: the function behind the tool | hint: rosservice.call_service raises its own exception
+# %% 08.5 wrong: uses rosservice.call_service | hint: rosservice.call_service raises its own exception
 replace("cls = rosservice … )(request)", "return rosservice.call_service(service, [fields])[1]")
 # %% 08.5 wrong: forgets to return | hint: without a return line
 replace("return rospy", "rospy")
-# %% 08.5 wrong: returns both halves | hint: The function returned more than
+# %% 08.5 wrong: returns request and response | hint: The function returned more than
 replace("rospy", "request, rospy")
 # %% 08.5 wrong: never fills the request | hint: Fill the request before the call
 replace("request = cls … )(request)", "return rospy.ServiceProxy(service, cls)(cls._request_class())")
-# %% 08.5 wrong: leaves unknown fields out | hint: The function ignored a field name
+# %% 08.5 wrong: ignores unknown fields | hint: The function ignored a field name
 replace("()", "()\n    known = {name: fields[name] for name in request.__slots__ if name in fields}")
 replace("[fields]", "[known]")
-# %% 08.5 wrong: an error only for one unknown name | hint: The function ignored a field name
-based_on("leaves unknown fields out")
+# %% 08.5 wrong: refuses only one unknown name | hint: The function ignored a field name
+based_on("ignores unknown fields")
 replace("{name: fields[name] for name in request.__slots__ if name in fields}", '{name: fields[name] for name in fields if name in request.__slots__ or name == "dat"}')
-# %% 08.5 wrong: as a dict | hint: The function returned a dict
+# %% 08.5 wrong: returns a dict | hint: The function returned a dict
 replace("cls =", "kind =")
 replace("cls._request_class", "kind._request_class")
 replace("return rospy.ServiceProxy(service, cls)(request)", """response = rospy.ServiceProxy(service, kind)(request)
     return {name: getattr(response, name) for name in response.__slots__}""")
 # %% 08.5 wrong: returns the proxy | hint: The function did not call the service
 replace("cls)(request)", "cls)")
-# %% 08.5 wrong: calls twice | hint: The function called the service more
+# %% 08.5 wrong: calls the service twice | hint: The function called the service more
 replace("return rospy", "rospy.ServiceProxy(service, cls)(request)\n    return rospy")
-# %% 08.5 wrong: one field of the response | hint: The function did not return
+# %% 08.5 wrong: returns one field of the response | hint: The function did not return
 replace("cls)(request)", "cls)(request).message")
 
-# %% 08.5 wrong: the class of the request | hint: rospy.ServiceProxy got the class of the request
+# %% 08.5 wrong: passes the request class to rospy.ServiceProxy | hint: rospy.ServiceProxy got the class of the request
 replace("rospy.ServiceProxy(service, cls)", "rospy.ServiceProxy(service, cls._request_class)")
-# %% 08.5 wrong: sends what the function returns | hint: Your function sent the return
+# %% 08.5 wrong: sends the return value of fill_message_args | hint: Your function sent the return
 replace("    genpy", "    request = genpy")
-# %% 08.5 wrong: lines of text | hint: The function returned lines of
+# %% 08.5 wrong: returns lines of text | hint: The function returned lines of
 replace("return rospy.ServiceProxy(service, cls)(request)", "return str(rospy.ServiceProxy(service, cls)(request)).splitlines()")
 
-# %% 08.6 right: the headers
+# %% 08.6 right: uses the headers of the service
 def diagnose(service, kind):
     uri = rosservice.get_service_uri(service)
     if uri is None:
@@ -501,7 +501,7 @@ def diagnose(service, kind):
         return "another type"
     return "ok" if headers["md5sum"] == kind._md5sum else "another definition"
 
-# %% 08.6 right: other functions
+# %% 08.6 right: uses other functions of rosservice
 def diagnose(service, kind):
     if service not in rosservice.get_service_list():
         return "not registered"
@@ -515,45 +515,45 @@ def diagnose(service, kind):
             return result
     return "ok"
 
-# %% 08.6 wrong: no test for None | hint: get_service_uri returned None, and your
+# %% 08.6 wrong: does not check for None | hint: get_service_uri returned None, and your
 replace("    if uri is None:\n        return \"not registered\"\n", "")
-# %% 08.6 wrong: catches nothing | hint: Catch ROSServiceIOException.
+# %% 08.6 wrong: catches no exception | hint: Catch ROSServiceIOException.
 replace("    try:\n        headers", "    if True:\n        headers")
 replace("    except rosservice.ROSServiceIOException:\n        return \"server is gone\"\n", "")
-# %% 08.6 wrong: compares the types only | hint: Compare the MD5 sums, too
+# %% 08.6 wrong: compares only the types | hint: Compare the MD5 sums, too
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return "ok"')
-# %% 08.6 wrong: compares the sums first | hint: The server and the client have types with different names
+# %% 08.6 wrong: compares only the MD5 sums | hint: The server and the client have types with different names
 replace('if headers["type … definition"', 'if headers["md5sum"] == kind._md5sum:\n        return "ok"\n    return "another definition"')
 # %% 08.6 wrong: treats every error as a missing server | hint: The master has an address for
 replace('"server is gone"', '"not registered"')
 # %% 08.6 wrong: treats a missing service as a dead server | hint: so get_service_uri returns None
 replace('"not registered"', '"server is gone"')
-# %% 08.6 wrong: compares with the class | hint: Compare the entry `type` of the headers
+# %% 08.6 wrong: compares the type with the class | hint: Compare the entry `type` of the headers
 replace('headers["type"] != kind._type', 'headers["type"] != kind')
-# %% 08.6 wrong: a header that does not exist | hint: The headers have no entry with
+# %% 08.6 wrong: reads a header entry that does not exist | hint: The headers have no entry with
 replace('headers["md5sum"]', 'headers["md5"]')
-# %% 08.6 wrong: the class on this computer | hint: The type of the server is not on this computer
+# %% 08.6 wrong: uses the class on this computer | hint: The type of the server is not on this computer
 replace("headers = rosservice.get_service_headers(service, uri)", "its = rosservice.get_service_class_by_name(service)")
 replace('headers["type"]', "its._type")
 replace('headers["md5sum"]', "its._md5sum")
-# %% 08.6 wrong: prints it | hint: without a return line
+# %% 08.6 wrong: prints the result instead of returning it | hint: without a return line
 replace('return "ok" if', 'print("ok" if')
 replace('else "another definition"', 'else "another definition")')
-# %% 08.6 wrong: a bool | hint: Return one of the five strings
+# %% 08.6 wrong: returns a bool | hint: Return one of the five strings
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return headers["md5sum"] == kind._md5sum')
-# %% 08.6 wrong: calls it | hint: Use only get_service_uri and
+# %% 08.6 wrong: calls the service | hint: Use only get_service_uri and
 replace('return "ok" if', "rospy.ServiceProxy(service, kind)(kind._request_class())\n    return \"ok\" if")
-# %% 08.6 wrong: calls it, but not in the first call | hint: Use only get_service_uri and
+# %% 08.6 wrong: calls the service from the second call on | hint: Use only get_service_uri and
 replace("def diagnose(service, kind):", "def diagnose(service, kind, runs=[]):")
 replace('return "ok" if', """if runs and headers["md5sum"] == kind._md5sum:
         rospy.ServiceProxy(service, kind)()
     runs.append(service)
     return "ok" if""")
-# %% 08.6 wrong: the sum of the request | hint: The MD5 sums are equal
+# %% 08.6 wrong: compares the MD5 sum of the request | hint: The MD5 sums are equal
 replace("kind._md5sum", "kind._request_class._md5sum")
-# %% 08.6 wrong: the test for None the wrong way round | hint: so the client can connect
+# %% 08.6 wrong: reverses the check for None | hint: so the client can connect
 replace("uri is None", "uri is not None")
-# %% 08.6 wrong: the last part of the name | hint: The server and the client have types with different names
+# %% 08.6 wrong: compares only the last part of the type | hint: The server and the client have types with different names
 replace('headers["type"] != kind._type', 'headers["type"].split("/")[1] != kind._type.split("/")[1]')
-# %% 08.6 wrong: no types if the sums are equal | hint: The server and the client have types with different names
+# %% 08.6 wrong: ignores the types if the MD5 sums are equal | hint: The server and the client have types with different names
 replace('headers["type"] != kind._type', 'headers["type"] != kind._type and headers["md5sum"] != kind._md5sum')

@@ -1,8 +1,8 @@
 """Example answers of chapter 09; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 09.1 right: as in the chapter
+# %% 09.1 right: uses the solution from the chapter
 solution()
-# %% 09.1 right: a handle that waits, and steps
+# %% 09.1 right: waits with the proxy, and uses separate steps
 replace("#!/usr/bin/env python3\nimport sys\n", '#!/usr/bin/python3\n"""Spawns MyTurtle."""')
 replace(".srv import Spawn", " import srv as turtle")
 replace("main():", 'run():\n    rospy.init_node("spawn_turtle", anonymous=True)\n    spawn = rospy.ServiceProxy("/spawn", turtle.Spawn)')
@@ -18,25 +18,25 @@ replace("rospy.wait_for_service … return 0", """spawn.wait_for_service(timeout
         raise SystemExit(1)
     rospy.loginfo("Spawned %s", name)""")
 replace('rospy.init_node("spawn_turtle")\n    sys.exit(main())', "run()")
-# %% 09.1 wrong: no wait | hint: The program ended before the service started
+# %% 09.1 wrong: does not wait for the service | hint: The program ended before the service started
 replace('    try:\n        rospy.wait_for_service("spawn", timeout=5)\n', '    try:\n')
-# %% 09.1 wrong: no limit | hint: The program waits too long, or without a limit
+# %% 09.1 wrong: waits without a limit | hint: The program waits too long, or without a limit
 replace(', timeout=5', '')
-# %% 09.1 wrong: a limit of one second | hint: The program stopped waiting too early
+# %% 09.1 wrong: waits for only two seconds | hint: The program stopped waiting too early
 replace('timeout=5', 'timeout=2')
-# %% 09.1 wrong: catches the wait only | hint: The server refused the call. In this case, print
+# %% 09.1 wrong: catches only the timeout of the wait | hint: The server refused the call. In this case, print
 replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ROSException')
-# %% 09.1 wrong: catches the call only | hint: The service did not start in time
+# %% 09.1 wrong: catches only the error of the call | hint: The service did not start in time
 replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ServiceException')
-# %% 09.1 wrong: no exit status | hint: The service did not start in time
+# %% 09.1 wrong: does not pass the exit status to sys.exit | hint: The service did not start in time
 replace('sys.exit(main())', 'main()')
 # %% 09.1 wrong: prints the requested name | hint: The simulator chooses the name
 replace('"spawned", response.name', '"spawned", "MyTurtle"')
 # %% 09.1 wrong: spins after the call | hint: The program does not end after the call
 replace('response.name)\n', 'response.name)\n    rospy.spin()\n')
-# %% 09.1 wrong: exit status 1 after success | hint: The turtle was spawned, so the exit status has to be 0
+# %% 09.1 wrong: exits with status 1 after a success | hint: The turtle was spawned, so the exit status has to be 0
 replace('response.name)\n    return 0', 'response.name)\n    return 1')
-# %% 09.1 wrong: two calls | hint: The program called /spawn more than once, and each call creates a turtle
+# %% 09.1 wrong: calls the service twice | hint: The program called /spawn more than once, and each call creates a turtle
 replace('(3, 3, 0, "MyTurtle")\n', '(3, 3, 0, "MyTurtle")\n        rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "")\n')
 # %% 09.1 wrong: repeats a refused call | hint: The server refused the call, and the program called the service again
 replace("rospy.ServiceException) as error:\n", """rospy.ServiceException) as error:
@@ -45,29 +45,29 @@ replace("rospy.ServiceException) as error:\n", """rospy.ServiceException) as err
         except rospy.ServiceException:
             pass
 """)
-# %% 09.1 wrong: waits for another name | hint: The program waits, but sends no request
+# %% 09.1 wrong: waits for another service | hint: The program waits, but sends no request
 replace('wait_for_service("spawn", timeout=5)', 'wait_for_service("/turtle1/spawn")')
-# %% 09.1 wrong: never calls | hint: The program ended without a request
+# %% 09.1 wrong: does not call the service | hint: The program ended without a request
 replace('        response = rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "MyTurtle")\n', '')
 replace('response.name', '"MyTurtle"')
-# %% 09.1 wrong: no name | hint: The name is empty, so the simulator chooses a name
+# %% 09.1 wrong: sends an empty name | hint: The name is empty, so the simulator chooses a name
 replace('"MyTurtle")', '"")')
-# %% 09.1 wrong: another name | hint: The name of the turtle is wrong
+# %% 09.1 wrong: sends another name | hint: The name of the turtle is wrong
 replace('"MyTurtle")', '"myturtle")')
-# %% 09.1 wrong: the angle first | hint: The numbers in the request are wrong
+# %% 09.1 wrong: sends the angle first | hint: The numbers in the request are wrong
 replace('(3, 3, 0, "MyTurtle")', '(0, 3, 3, "MyTurtle")')
-# %% 09.1 wrong: outside of the main block | hint: Move rospy.init_node and all lines after it
+# %% 09.1 wrong: runs the node outside of the main block | hint: Move rospy.init_node and all lines after it
 replace('if __name__ == "__main__":\n    rospy.init_node("spawn_turtle")\n    sys.exit(main())', 'rospy.init_node("spawn_turtle")\nsys.exit(main())')
-# %% 09.1 wrong: the main block also runs in an import | hint: Move rospy.init_node and all lines after it
+# %% 09.1 wrong: also runs the main block during an import | hint: Move rospy.init_node and all lines after it
 replace('if __name__ == "__main__":', 'if __name__ in ("__main__", "spawn_turtle"):')
-# %% 09.1 wrong: an undefined variable | hint: The program stopped with an error
+# %% 09.1 wrong: uses an undefined variable | hint: The program stopped with an error
 replace('3, 3, 0, "MyTurtle")\n', 'x, 3, 0, "MyTurtle")\n')
 # %% 09.1 wrong: prepares the node as the course's programs do | hint: Your program starts or imports a program of the course
 replace('rospy.init_node("spawn_turtle")', 'rospy.init_node("spawn_turtle")\n    from course_pkg.ros import prepare_node\n    prepare_node()')
 
-# %% 09.2 right: as in the chapter
+# %% 09.2 right: uses the solution from the chapter
 solution()
-# %% 09.2 right: a class and a timer
+# %% 09.2 right: uses a class and a timer
 replace("python3", 'python3\n"""Drives turtle1 straight ahead or in a circle."""')
 replace("from geometry_msgs … forward = True", "import std_srvs.srv\nfrom geometry_msgs.msg import Twist, Vector3")
 replace("def handle_toggle(request):\n    global forward\n    forward = not forward\n    return EmptyResponse()", """class Toggle:
@@ -95,18 +95,18 @@ def main():
 replace('rospy.init_node("pubvel_toggle … rate.sleep()', "main()")
 # %% 09.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
 replace('\nforward = True', '\nforward = False')
-# %% 09.2 wrong: the handler publishes a velocity of 0 | hint: A message contained a wrong velocity
+# %% 09.2 wrong: publishes a velocity of 0 in the handler | hint: A message contained a wrong velocity
 replace("    return EmptyResponse()", "    publisher.publish(Twist())\n    return EmptyResponse()")
-# %% 09.2 wrong: the handler publishes, too | hint: Each call published another message
+# %% 09.2 wrong: also publishes in the handler | hint: Each call published another message
 replace("    return EmptyResponse()", """    message = Twist()
     message.linear.x, message.angular.z = float(forward), float(not forward)
     publisher.publish(message)
     return EmptyResponse()""")
-# %% 09.2 wrong: twice as fast | hint: To drive straight ahead, set linear.x = 1.0
+# %% 09.2 wrong: moves twice as fast | hint: To drive straight ahead, set linear.x = 1.0
 replace('linear.x = 1.0', 'linear.x = 2.0')
-# %% 09.2 wrong: no global | hint: After the call, the turtle still goes straight ahead
+# %% 09.2 wrong: forgets the global statement | hint: After the call, the turtle still goes straight ahead
 replace('    global forward\n    forward = not forward', '    forward = False')
-# %% 09.2 wrong: the same message object in each loop | hint: The turtle turns, but it also moves ahead
+# %% 09.2 wrong: uses the same message object in each iteration | hint: The turtle turns, but it also moves ahead
 replace('    while not rospy.is_shutdown():\n        message = Twist()\n', '    message = Twist()\n    while not rospy.is_shutdown():\n')
 # %% 09.2 wrong: turns to the right | hint: The velocity is wrong while the turtle turns
 replace('angular.z = 1.0', 'angular.z = -1.0')
@@ -116,31 +116,31 @@ replace('forward = not forward', 'forward = False')
 replace('    forward = not forward', '    calls.append(1)\n    forward = len(calls) == 0')
 replace('\nforward = True', '\ncalls = []\nforward = True')
 replace('            message.angular.z = 1.0', '            message.angular.z = float(len(calls) == 1)')
-# %% 09.2 wrong: ten times per second | hint: The program does not publish twice per second
+# %% 09.2 wrong: publishes ten times per second | hint: The program does not publish twice per second
 replace('Rate(2)', 'Rate(10)')
-# %% 09.2 wrong: a pause of two seconds | hint: The program does not publish twice per second
+# %% 09.2 wrong: publishes every two seconds | hint: The program does not publish twice per second
 replace('rate.sleep()', 'rospy.sleep(2)')
-# %% 09.2 wrong: publishes once | hint: The program reached its last line and ended
+# %% 09.2 wrong: publishes only three times | hint: The program reached its last line and ended
 replace('while not rospy.is_shutdown():', 'for _ in range(3):')
-# %% 09.2 wrong: publishes only when called | hint: No velocity arrived for 4 s
+# %% 09.2 wrong: publishes nothing | hint: No velocity arrived for 4 s
 replace('        publisher.publish(message)\n', '        if not forward and rospy.get_time() < 0:\n            publisher.publish(message)\n')
-# %% 09.2 wrong: the service after the loop | hint: Create the service before the loop begins
+# %% 09.2 wrong: creates the service after the loop | hint: Create the service before the loop begins
 replace('    rospy.Service("toggle_forward", Empty, handle_toggle)\n', '')
 replace('        rate.sleep()\n', '        rate.sleep()\n    rospy.Service("toggle_forward", Empty, handle_toggle)\n')
-# %% 09.2 wrong: another service name | hint: The node offers
+# %% 09.2 wrong: uses another service name | hint: The node offers
 replace('"toggle_forward"', '"toggle"')
-# %% 09.2 wrong: another topic | hint: The node does not publish on /turtle1/cmd_vel
+# %% 09.2 wrong: uses another topic | hint: The node does not publish on /turtle1/cmd_vel
 replace('"turtle1/cmd_vel"', '"turtle1/cmd_velocity"')
-# %% 09.2 wrong: also to the side | hint: A field of the velocity is not 0, but it has to be 0
+# %% 09.2 wrong: also moves to the side | hint: A field of the velocity is not 0, but it has to be 0
 replace('        if forward:\n', '        message.linear.y = 0.5\n        if forward:\n')
-# %% 09.2 wrong: the loop toggles, once per message | hint: The second call changed nothing
+# %% 09.2 wrong: changes the direction in the loop, at most once per message | hint: The second call changed nothing
 replace('    global forward\n    forward = not forward', '    global called\n    called = True')
 replace('\nforward = True', '\nforward = True\ncalled = False')
 replace('        message = Twist()\n', '        forward, called = forward != called, False\n        message = Twist()\n')
 
-# %% 09.3 right: as in the chapter
+# %% 09.3 right: uses the solution from the chapter
 solution()
-# %% 09.3 right: sleeps for the pause
+# %% 09.3 right: sleeps for 1 / rate
 replace(", ChangeRateResponse", "")
 replace(", EmptyResponse", "")
 replace("EmptyResponse()", "[]")
@@ -149,14 +149,14 @@ replace("before = frequency … before=before)", "old, frequency = frequency, re
 replace("toggle_forward", "/toggle_forward")
 replace("\n    used, rate = frequency, rospy.Rate(frequency)", "")
 replace("if used != … rate.sleep()", "rospy.sleep(1.0 / frequency)")
-# %% 09.3 wrong: a new rate sets the first direction again | hint: A call of /change_rate also changed the direction
+# %% 09.3 wrong: resets the direction when the rate changes | hint: A call of /change_rate also changed the direction
 replace("    global frequency\n", "    global frequency, forward\n    forward = True\n")
-# %% 09.3 wrong: the loop keeps its rate | hint: A Rate object cannot change its rate
+# %% 09.3 wrong: does not change the Rate object of the loop | hint: A Rate object cannot change its rate
 replace('used != frequency', 'used < 0')
-# %% 09.3 wrong: a table of rates | hint: The program did not publish at the rate that the client had set
-based_on("sleeps for the pause")
+# %% 09.3 wrong: rounds the rate to a value in a table | hint: The program did not publish at the rate that the client had set
+based_on("sleeps for 1 / rate")
 replace("rospy.sleep(1.0 / frequency)", "rates = (0.5, 1, 2, 2.5, 4, 5, 10, 20, 50, 100)\n        rospy.sleep(1 / min(rates, key=lambda each: abs(each - frequency)))")
-# %% 09.3 wrong: a whole number of rounds | hint: The program did not publish at the rate that the client had set
+# %% 09.3 wrong: rounds the period to a multiple of 0.01 s | hint: The program did not publish at the rate that the client had set
 replace("used, rate = frequency, rospy.Rate(frequency)\n    while", "rounds, rate = 0, rospy.Rate(100)\n    while")
 replace("        message = Twist()", """        rate.sleep()
         rounds += 1
@@ -167,34 +167,34 @@ replace("        message = Twist()", """        rate.sleep()
 replace("        if used … rate.sleep()", "        pass")
 # %% 09.3 wrong: returns the new rate | hint: The field `before` contains the new rate
 replace('before=before', 'before=frequency')
-# %% 09.3 wrong: an empty response | hint: The field `before` has its default value, 0.0
+# %% 09.3 wrong: returns an empty response | hint: The field `before` has its default value, 0.0
 replace('(before=before)', '()')
-# %% 09.3 wrong: whole numbers | hint: Store the rate as a float in Python, or as a double in C++
+# %% 09.3 wrong: returns the old rate as an int | hint: Store the rate as a float in Python, or as a double in C++
 replace('before=before', 'before=int(before)')
-# %% 09.3 wrong: returns the pause | hint: The field `before` has a wrong value
+# %% 09.3 wrong: returns the old pause instead of the old rate | hint: The field `before` has a wrong value
 replace('before=before', 'before=1 / before')
-# %% 09.3 wrong: accepts everything | hint: but this value is not allowed
+# %% 09.3 wrong: accepts every rate | hint: but this value is not allowed
 replace('    if not 0 < request.rate <= 100:\n        raise rospy.ServiceException(f"{request.rate} is not above 0 and at most 100")\n', '    if request.rate == 0:\n        raise rospy.ServiceException("0")\n')
-# %% 09.3 wrong: accepts nan | hint: The node accepted nan
+# %% 09.3 wrong: accepts the rate nan | hint: The node accepted nan
 replace('if not 0 < request.rate <= 100', 'if request.rate <= 0 or request.rate > 100')
-# %% 09.3 wrong: below 100 only | hint: The node refused an allowed rate
+# %% 09.3 wrong: refuses the rate 100 | hint: The node refused an allowed rate
 replace('<= 100', '< 100')
 # %% 09.3 wrong: stores the rate before it checks it | hint: The handler stored the rate before it refused the call
 replace('    if not 0 < request.rate <= 100:\n', '    before, frequency = frequency, request.rate\n    if not 0 < request.rate <= 100:\n')
 replace('    before = frequency\n    frequency = request.rate\n', '')
 replace('    used, rate = frequency, rospy.Rate(frequency)\n    while', '    used, rate = frequency, rospy.Rate(frequency)\n    while')
 replace('if used != frequency:', 'if used != frequency and 0 < frequency <= 100:')
-# %% 09.3 wrong: a toggle sets the first rate again | hint: A call of /toggle_forward also changed the rate
+# %% 09.3 wrong: resets the rate in each toggle | hint: A call of /toggle_forward also changed the rate
 replace("global forward\n", "global forward, frequency\n    frequency = 2.0\n")
-# %% 09.3 wrong: a ValueError | hint: The handler raised an error of the wrong type
+# %% 09.3 wrong: raises a ValueError | hint: The handler raised an error of the wrong type
 replace('rospy.ServiceException(', 'ValueError(')
-# %% 09.3 wrong: no toggle | hint: Create the service before the loop begins
+# %% 09.3 wrong: does not offer /toggle_forward | hint: Create the service before the loop begins
 replace('    rospy.Service("toggle_forward", Empty, handle_toggle)\n', '')
 
-# %% 09.4 right: a class
+# %% 09.4 right: uses a class
 solution()
 
-# %% 09.4 right: a dictionary and functions
+# %% 09.4 right: uses a dictionary and functions
 """%%writefile src/my_turtles/scripts/improved_pubvel_toggle.py
 #!/usr/bin/env python3
 import rospy
@@ -262,63 +262,63 @@ if __name__ == "__main__":
 
 # %% 09.4 wrong: does not move at the start | hint: The turtle does not move before the first call
 replace('self.moving = True', 'self.moving = False')
-# %% 09.4 wrong: a rate of almost 0 while it is stopped | hint: No velocity arrived for 4 s
+# %% 09.4 wrong: publishes almost never while it is stopped | hint: No velocity arrived for 4 s
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        if not self.moving:\n            self.frequency = 0.001\n')
 # %% 09.4 wrong: publishes nothing while it is stopped | hint: No velocity arrived for 4 s
 replace('        publisher.publish(driver.velocity())\n', '        if driver.moving:\n            publisher.publish(driver.velocity())\n')
-# %% 09.4 wrong: begins at 2.0 | hint: Before the first call, the turtle has to move straight ahead at 1.0 m/s
+# %% 09.4 wrong: begins with the speed 2.0 | hint: Before the first call, the turtle has to move straight ahead at 1.0 m/s
 replace('self.speed = 1.0', 'self.speed = 2.0')
-# %% 09.4 wrong: a fixed rate | hint: Copy the code of /change_rate from your program pubvel_toggle_plus
+# %% 09.4 wrong: uses a fixed publishing rate | hint: Copy the code of /change_rate from your program pubvel_toggle_plus
 replace('1 / driver.frequency', '0.5')
 # %% 09.4 wrong: accepts the rate nan | hint: The node accepted nan
 replace("if not 0 < request.rate <= 100:", "if request.rate <= 0 or request.rate > 100:")
-# %% 09.4 wrong: a fixed speed | hint: After the call, the turtle still moves at 1.0 m/s
+# %% 09.4 wrong: uses a fixed speed | hint: After the call, the turtle still moves at 1.0 m/s
 replace('linear.x = self.speed', 'linear.x = 1.0')
-# %% 09.4 wrong: no negative speed | hint: With a negative speed, the turtle has to move backwards
+# %% 09.4 wrong: ignores the sign of the speed | hint: With a negative speed, the turtle has to move backwards
 replace('linear.x = self.speed', 'linear.x = abs(self.speed)')
-# %% 09.4 wrong: whole numbers | hint: Store the speed as a float in Python, or as a double in C++
+# %% 09.4 wrong: converts the speed to an int | hint: Store the speed as a float in Python, or as a double in C++
 replace('linear.x = self.speed', 'linear.x = int(self.speed)')
-# %% 09.4 wrong: turns to the right with a negative speed | hint: The velocity is wrong while the turtle turns
+# %% 09.4 wrong: turns to the right if the speed is negative | hint: The velocity is wrong while the turtle turns
 replace("angular.z = 1.0", "angular.z = math.copysign(1.0, self.speed)")
 # %% 09.4 wrong: returns the new speed | hint: The field `before` contains the new speed
 replace('before, self.speed = self.speed, request.speed', 'before = self.speed = request.speed')
-# %% 09.4 wrong: forgets to return it | hint: The field `before` is wrong
+# %% 09.4 wrong: returns a response without the old speed | hint: The field `before` is wrong
 replace('ChangeSpeedResponse(before=before)', 'ChangeSpeedResponse()')
 # %% 09.4 wrong: refuses negative speeds | hint: The node refused an allowed speed
 replace('if not math.isfinite(request.speed)', 'if not 0 <= request.speed < 1000')
 # %% 09.4 wrong: refuses the speed 0 | hint: The node refused an allowed speed
 replace("if not math.isfinite(request.speed)", "if not request.speed or not math.isfinite(request.speed)")
-# %% 09.4 wrong: accepts inf | hint: accept only finite numbers
+# %% 09.4 wrong: accepts the speed inf | hint: accept only finite numbers
 replace('not math.isfinite(request.speed)', 'request.speed != request.speed or request.speed == -math.inf')
-# %% 09.4 wrong: never stops | hint: The turtle still moves after a call with data=False
+# %% 09.4 wrong: does not stop | hint: The turtle still moves after a call with data=False
 replace('self.moving = request.data\n', 'self.stopped = not request.data\n')
 replace('if request.data == self.moving:', 'if request.data != getattr(self, "stopped", False):')
-# %% 09.4 wrong: a new direction | hint: and at the speed that were set last
+# %% 09.4 wrong: resets the direction at each start and stop | hint: and at the speed that were set last
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n')
-# %% 09.4 wrong: a speed that is set while it is stopped is lost | hint: The client called /change_speed while the turtle was stopped
+# %% 09.4 wrong: ignores a speed that is set while it is stopped | hint: The client called /change_speed while the turtle was stopped
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, request.speed if self.moving else self.speed')
-# %% 09.4 wrong: a toggle starts a turtle that is stopped | hint: A call of /toggle_forward started the turtle again
+# %% 09.4 wrong: starts the turtle when it is toggled | hint: A call of /toggle_forward started the turtle again
 replace('self.forward = not self.forward\n', 'self.forward = not self.forward\n        self.moving = True\n')
-# %% 09.4 wrong: at most 10 m/s | hint: The turtle does not move at the speed that /change_speed has set
+# %% 09.4 wrong: limits the speed to 10 m/s | hint: The turtle does not move at the speed that /change_speed has set
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, min(max(request.speed, -10), 10)')
-# %% 09.4 wrong: success is the value of data | hint: The field `success` is False
+# %% 09.4 wrong: returns the field data as success | hint: The field `success` is False
 replace('success=True, message=word', 'success=request.data, message=word')
-# %% 09.4 wrong: no message | hint: The message is empty
+# %% 09.4 wrong: returns no message | hint: The message is empty
 replace('success=True, message=word)', 'success=True)')
-# %% 09.4 wrong: always already | hint: This call changed the state
+# %% 09.4 wrong: always writes "already" | hint: This call changed the state
 replace('message=word)', 'message=f"now already {word}")')
-# %% 09.4 wrong: never already | hint: This call changed nothing
+# %% 09.4 wrong: never writes "already" | hint: This call changed nothing
 replace('message=f"already {word}"', 'message=word')
-# %% 09.4 wrong: compares with the last published message | hint: This call changed nothing
+# %% 09.4 wrong: compares with the state of the last published message | hint: This call changed nothing
 replace("self.moving = True", "self.moving = self.wanted = True")
 replace("self.moving = request.data", "self.wanted = request.data")
 replace("        publisher.publish(", "        driver.moving = driver.wanted\n        publisher.publish(")
 # %% 09.4 wrong: refuses a call that changes nothing | hint: The node refused a call that asks for the current state
 replace('return SetBoolResponse(success=True, message=f"already {word}")', 'raise rospy.ServiceException("already")')
 
-# %% 09.5 right: as in the chapter
+# %% 09.5 right: uses the solution from the chapter
 solution()
-# %% 09.5 right: a class, and a loop over the services
+# %% 09.5 right: uses a class, and waits for each service before its call
 replace("import sys … ChangeSpeed", "import rospy\nfrom course_pkg.srv import ChangeSpeed, ChangeSpeedRequest")
 replace("import Spawn", "import Spawn, SpawnRequest")
 replace("def call(name … )(*values)", """class Follower:
@@ -345,33 +345,33 @@ replace("try: … return 0", """rospy.init_node("spawn_turtle_plus")
     follower = Follower(response.name)
     rospy.spin()""")
 replace('rospy.init_node("spawn_turtle_plus")\n    sys.exit(main())', "main()")
-# %% 09.5 wrong: the speed first | hint: The program calls the three services in the wrong order
+# %% 09.5 wrong: sets the speed before it toggles | hint: The program calls the three services in the wrong order
 replace('        call("toggle_forward", Empty)\n        call("change_speed", ChangeSpeed, 2.0)\n', '        call("change_speed", ChangeSpeed, 2.0)\n        call("toggle_forward", Empty)\n')
-# %% 09.5 wrong: waits for the first only | hint: The program ended too early, because /toggle_forward starts
+# %% 09.5 wrong: waits only for the first service | hint: The program ended too early, because /toggle_forward starts
 replace('    rospy.wait_for_service(name, timeout=5)\n', '    if name == "spawn":\n        rospy.wait_for_service(name, timeout=5)\n')
-# %% 09.5 wrong: waits for all services first | hint: /toggle_forward starts only after the call of /spawn
+# %% 09.5 wrong: waits for all services before the first call | hint: /toggle_forward starts only after the call of /spawn
 replace("    try:\n", "    try:\n        for service in (\"spawn\", \"toggle_forward\", \"change_speed\"):\n            rospy.wait_for_service(service, timeout=5)\n")
-# %% 09.5 wrong: waits 1 s at most | hint: The program ended too early, because /toggle_forward starts
+# %% 09.5 wrong: waits for at most 1 s | hint: The program ended too early, because /toggle_forward starts
 replace("timeout=5", "timeout=1")
-# %% 09.5 wrong: another name | hint: The program waits, but does not call the next service
+# %% 09.5 wrong: calls a service with another name | hint: The program waits, but does not call the next service
 replace('call("toggle_forward", Empty)', 'call("toggle", Empty)')
-# %% 09.5 wrong: another place | hint: The request is wrong
+# %% 09.5 wrong: spawns the turtle with another angle | hint: The request is wrong
 replace('3, 3, 0, "MyTurtle"', '3, 3, 3, "MyTurtle"')
-# %% 09.5 wrong: another speed | hint: Send 2.0 in the field `speed`
+# %% 09.5 wrong: sends another speed | hint: Send 2.0 in the field `speed`
 replace('ChangeSpeed, 2.0', 'ChangeSpeed, 10.0')
-# %% 09.5 wrong: no spin | hint: The node ended after the calls
+# %% 09.5 wrong: omits spin | hint: The node ended after the calls
 replace('    rospy.spin()\n', '')
-# %% 09.5 wrong: the name is fixed | hint: Publish only on the topic /NAME/cmd_vel
+# %% 09.5 wrong: uses a fixed name for the topic | hint: Publish only on the topic /NAME/cmd_vel
 replace('f"{name}/cmd_vel"', '"MyTurtle/cmd_vel"')
 # %% 09.5 wrong: follows another turtle | hint: The program gets no velocities of the first turtle
 replace('Subscriber("turtle1/cmd_vel"', 'Subscriber("turtle2/cmd_vel"')
-# %% 09.5 wrong: a callback that does nothing | hint: The callback publishes nothing
+# %% 09.5 wrong: uses a callback that does nothing | hint: The callback publishes nothing
 replace('Twist, publisher.publish)', 'Twist, lambda message: None)')
 # %% 09.5 wrong: publishes each velocity twice | hint: Some velocities were published more than once
 replace('Twist, publisher.publish)', 'Twist, lambda message: [publisher.publish(message) for _ in range(2)])')
-# %% 09.5 wrong: leaves out velocities of 0 | hint: Some velocities are missing
+# %% 09.5 wrong: does not publish velocities without linear.x | hint: Some velocities are missing
 replace("Twist, publisher.publish)", "Twist, lambda message: publisher.publish(message) if message.linear.x else None)")
-# %% 09.5 wrong: leaves out equal velocities | hint: Some velocities are missing
+# %% 09.5 wrong: does not publish equal velocities again | hint: Some velocities are missing
 replace("    publisher = rospy", """    last = [None]
 
     def follow(message):
@@ -381,15 +381,15 @@ replace("    publisher = rospy", """    last = [None]
 
     publisher = rospy""")
 replace("Twist, publisher.publish)", "Twist, follow)")
-# %% 09.5 wrong: a pause in the callback | hint: Some velocities are missing
+# %% 09.5 wrong: pauses in the callback | hint: Some velocities are missing
 replace('Twist, publisher.publish)', 'Twist, lambda message: (publisher.publish(message), rospy.sleep(0.3)), queue_size=1)')
-# %% 09.5 wrong: publishes the velocity before | hint: The program did not publish each received velocity once
+# %% 09.5 wrong: publishes the previous velocity | hint: The program did not publish each received velocity once
 replace('    publisher = rospy', '    newest = [Twist()]\n\n    def late(message):\n        publisher.publish(newest[0])\n        newest[0] = message\n\n    publisher = rospy')
 replace('Twist, publisher.publish)', 'Twist, late)')
-# %% 09.5 wrong: two fields only | hint: Some fields of the published message differ from the received message
+# %% 09.5 wrong: copies only two fields | hint: Some fields of the published message differ from the received message
 replace('    publisher = rospy', '    def copy(message):\n        new = Twist()\n        new.linear.x, new.angular.z = message.linear.x, message.angular.z\n        publisher.publish(new)\n\n    publisher = rospy')
 replace('Twist, publisher.publish)', 'Twist, copy)')
-# %% 09.5 wrong: continues after a failure | hint: After a failed call, the program still called the next service
+# %% 09.5 wrong: continues after a failed call | hint: After a failed call, the program still called the next service
 replace('        call("toggle_forward", Empty)\n', '        try:\n            call("toggle_forward", Empty)\n        except (rospy.ROSException, rospy.ServiceException) as error:\n            print(error)\n')
 # %% 09.5 wrong: continues after a refused /spawn | hint: After a failed call, the program still called the next service
 replace('        name = call("spawn", Spawn, 3, 3, 0, "MyTurtle").name\n', """        try:
@@ -397,15 +397,15 @@ replace('        name = call("spawn", Spawn, 3, 3, 0, "MyTurtle").name\n', """  
         except rospy.ServiceException:
             name = "MyTurtle"
 """)
-# %% 09.5 wrong: no limit | hint: A service is missing, but the program did not end
+# %% 09.5 wrong: waits without a limit | hint: A service is missing, but the program did not end
 replace('(name, timeout=5)', '(name)')
-# %% 09.5 wrong: no exit status | hint: If a wait times out or a call is refused, print a
+# %% 09.5 wrong: exits with status 0 after a failure | hint: If a wait times out or a call is refused, print a
 replace('        return 1\n', '        return 0\n')
 
-# %% 09.6 right: as in the chapter
+# %% 09.6 right: uses the solution from the chapter
 solution()
 
-# %% 09.6 right: a group, with comments
+# %% 09.6 right: uses a group, and comments
 """%%writefile src/my_turtles/launch/exercise3.launch
 <?xml version="1.0"?>
 <launch>
@@ -419,35 +419,35 @@ solution()
 </launch>
 """
 
-# %% 09.6 wrong: the course's driver | hint: roslaunch does not find a program
+# %% 09.6 wrong: uses the driver of the course | hint: roslaunch does not find a program
 replace('pkg="my_turtles" type="improved_pubvel_toggle.py"', 'pkg="course_pkg" type="improved_pubvel_toggle"')
-# %% 09.6 wrong: the programs are exchanged | hint: roslaunch does not find a program
+# %% 09.6 wrong: exchanges the two programs | hint: roslaunch does not find a program
 replace('type="improved_pubvel_toggle.py"', 'type="OTHER"')
 replace('type="spawn_turtle_plus.py"', 'type="improved_pubvel_toggle.py"')
 replace('type="OTHER"', 'type="spawn_turtle_plus.py"')
-# %% 09.6 wrong: a tag that is not closed | hint: The file is not valid XML
+# %% 09.6 wrong: does not close a tag | hint: The file is not valid XML
 replace('</launch>', '<launch>')
-# %% 09.6 wrong: no default | hint: The argument addturtle has no default value
+# %% 09.6 wrong: omits the default value | hint: The argument addturtle has no default value
 replace(' default="false"', '')
-# %% 09.6 wrong: no in place of false | hint: The value of the attribute "if" has to be true or false
+# %% 09.6 wrong: writes "no" instead of "false" | hint: The value of the attribute "if" has to be true or false
 replace('default="false"', 'default="no"')
-# %% 09.6 wrong: an argument that is not declared | hint: roslaunch cannot read the file
+# %% 09.6 wrong: uses an argument that is not declared | hint: roslaunch cannot read the file
 replace('$(arg addturtle)', '$(arg add)')
-# %% 09.6 wrong: another name for the driver | hint: A node is missing or has a wrong name
+# %% 09.6 wrong: gives the driver another name | hint: A node is missing or has a wrong name
 replace('name="improved_pubvel_toggle"', 'name="driver"')
-# %% 09.6 wrong: the driver only with the second turtle | hint: A node did not start.
+# %% 09.6 wrong: starts the driver only with the second turtle | hint: A node did not start.
 replace('type="improved_pubvel_toggle.py"', 'if="$(arg addturtle)" type="improved_pubvel_toggle.py"')
-# %% 09.6 wrong: a fixed value | hint: The <arg> tag gives the argument a fixed value
+# %% 09.6 wrong: gives the argument a fixed value | hint: The <arg> tag gives the argument a fixed value
 replace('default="false"', 'value="false"')
-# %% 09.6 wrong: a condition that is never true | hint: With addturtle:=true, a node is missing
+# %% 09.6 wrong: uses a condition that is never true | hint: With addturtle:=true, a node is missing
 replace('if="$(arg addturtle)"', 'if="false"')
-# %% 09.6 wrong: true by default | hint: spawn_turtle_plus must not start without an argument
+# %% 09.6 wrong: uses the default value true | hint: spawn_turtle_plus must not start without an argument
 replace('default="false"', 'default="true"')
-# %% 09.6 wrong: no condition | hint: spawn_turtle_plus also starts with addturtle:=false
+# %% 09.6 wrong: omits the condition | hint: spawn_turtle_plus also starts with addturtle:=false
 replace('if="$(arg addturtle)" ', '')
-# %% 09.6 wrong: a program name without .py | hint: roslaunch does not find a program
+# %% 09.6 wrong: omits .py in a program name | hint: roslaunch does not find a program
 replace('type="improved_pubvel_toggle.py"', 'type="improved_pubvel_toggle"')
-# %% 09.6 wrong: turtlesim as the program | hint: roslaunch does not find a program
+# %% 09.6 wrong: uses turtlesim as the program name | hint: roslaunch does not find a program
 replace('type="turtlesim_node"', 'type="turtlesim"')
-# %% 09.6 wrong: in a namespace | hint: The three programs start, but they use different names for the same topics or
+# %% 09.6 wrong: remaps the topic of the turtle | hint: The three programs start, but they use different names for the same topics or
 replace('name="turtlesim" />', 'name="turtlesim">\n    <remap from="/turtle1/cmd_vel" to="/other/cmd_vel" />\n  </node>')

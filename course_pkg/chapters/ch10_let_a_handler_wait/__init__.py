@@ -1,3 +1,3 @@
-"""Chapter 10, Let a handler wait: waiting handlers, conditions, threads, locks, races and deadlocks."""
+"""Chapter 10, let a handler wait: waiting handlers, conditions, threads, locks, races and deadlocks."""
 
 TITLE = "Let a handler wait"

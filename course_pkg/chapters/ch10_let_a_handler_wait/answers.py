@@ -1,6 +1,6 @@
 """Example answers of chapter 10; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 10.1 right: one thread for each call
+# %% 10.1 right: starts one thread for each call
 def call_at_once(name, count):
     messages = []
 
@@ -15,7 +15,7 @@ def call_at_once(name, count):
         thread.join()
     return messages
 
-# %% 10.1 right: a pool of threads and one proxy
+# %% 10.1 right: uses a pool of threads and one proxy
 from concurrent.futures import ThreadPoolExecutor
 
 
@@ -25,7 +25,7 @@ def call_at_once(name, count):
         futures = [pool.submit(proxy) for _ in range(count)]
         return [future.result().message for future in futures]
 
-# %% 10.1 right: a subclass of Thread
+# %% 10.1 right: uses a subclass of Thread
 class Caller(threading.Thread):
     def __init__(self, name):
         super().__init__(daemon=True)
@@ -44,37 +44,37 @@ def call_at_once(name, count):
         caller.join()
     return tuple(caller.message for caller in callers)
 
-# %% 10.1 wrong: one call after the other | hint: The second call began after the first call had returned
+# %% 10.1 wrong: makes one call after the other | hint: The second call began after the first call had returned
 replace("messages = … return messages", "proxy = rospy.ServiceProxy(name, Trigger)\n    return [proxy().message for _ in range(count)]")
 # %% 10.1 wrong: joins each thread directly after its start | hint: The second call began after the first call had returned
 replace("thread.start()\n    for thread in threads:", "thread.start()")
-# %% 10.1 wrong: calls the function instead of passing it | hint: The second call began after the first call had returned
+# %% 10.1 wrong: calls the function instead of passing it to the thread | hint: The second call began after the first call had returned
 replace("target=call)", "target=call())")
-# %% 10.1 wrong: does not join | hint: Join every thread before you return
+# %% 10.1 wrong: does not join the threads | hint: Join every thread before you return
 replace("\n    for thread in threads:\n        thread.join()", "")
 # %% 10.1 wrong: sleeps for a second instead of joining | hint: Join every thread before you return
 replace("for thread in threads:\n        thread.join()", "time.sleep(1)")
-# %% 10.1 wrong: one persistent proxy for all threads | hint: Two threads call the same persistent proxy
+# %% 10.1 wrong: uses one persistent proxy for all threads | hint: Two threads call the same persistent proxy
 replace("    def call():\n        proxy = rospy.ServiceProxy(name, Trigger)\n", "    proxy = rospy.ServiceProxy(name, Trigger, persistent=True)\n\n    def call():\n")
 # %% 10.1 wrong: hides the calls of a persistent proxy | hint: Two threads call the same persistent proxy
 replace("def call_at_once", "call_of_proxy = rospy.ServiceProxy.call\n\n\ndef call_at_once")
 replace("rospy.ServiceProxy(name, Trigger)", "rospy.ServiceProxy(name, Trigger, persistent=True)")
 replace("proxy().message", "call_of_proxy(proxy).message")
-# %% 10.1 wrong: whole responses | hint: The list contains whole responses
+# %% 10.1 wrong: returns whole responses | hint: The list contains whole responses
 replace("proxy().message", "proxy()")
-# %% 10.1 wrong: one thread too few | hint: The service was called too few times
+# %% 10.1 wrong: starts one thread too few | hint: The service was called too few times
 replace("range(count)", "range(count - 1)")
-# %% 10.1 wrong: calls in its own thread, too | hint: The service was called too many times
+# %% 10.1 wrong: makes an additional call after the threads | hint: The service was called too many times
 replace("    for thread in threads:\n        thread.join()", "    for thread in threads:\n        thread.join()\n    call()")
 # %% 10.1 wrong: starts no thread | hint: Call start() of each thread first
 replace("\n    for thread in threads:\n        thread.start()", "")
-# %% 10.1 wrong: another name | hint: The service was not called
+# %% 10.1 wrong: calls another service | hint: The service was not called
 replace("ServiceProxy(name", 'ServiceProxy("/count_up"')
 replace("messages.append(proxy().message)", "try:\n            messages.append(proxy().message)\n        except rospy.ServiceException:\n            messages.append(name)")
-# %% 10.1 wrong: args is not a tuple | hint: The service was not called
+# %% 10.1 wrong: passes args that is not a tuple | hint: The service was not called
 replace("def call():", "def call(name):")
 replace("target=call)", "target=call, args=name)")
-# %% 10.1 wrong: rosservice in other processes | hint: Another program called the service
+# %% 10.1 wrong: runs rosservice in other processes | hint: Another program called the service
 import re
 import subprocess
 
@@ -85,26 +85,26 @@ def call_at_once(name, count):
     texts = [helper.communicate()[0] for helper in helpers]
     return [re.search(r"message: [\"']?(.*?)[\"']?$", text, re.M)[1] for text in texts]
 
-# %% 10.1 wrong: the return value of a thread | hint: The list contains None
+# %% 10.1 wrong: returns the results of join() | hint: The list contains None
 replace("messages.append(proxy().message)", "proxy()")
 replace("return messages", "return [thread.join() for thread in threads]")
-# %% 10.1 wrong: a set of all messages | hint: Two clients got the same message
+# %% 10.1 wrong: stores the messages in a set | hint: Two clients got the same message
 replace("messages = []", "messages = set()")
 replace("messages.append", "messages.add")
 replace("return messages", "return list(messages)")
-# %% 10.1 wrong: a limit for each join | hint: Join every thread before you return
+# %% 10.1 wrong: joins each thread with a time limit | hint: Join every thread before you return
 replace("thread.join()", "thread.join(0.2)")
-# %% 10.1 wrong: a set of one message | hint: The list does not contain the right messages
+# %% 10.1 wrong: returns a dict of the messages | hint: The list does not contain the right messages
 replace("return messages", "return {message: True for message in messages}")
-# %% 10.1 wrong: no return line | hint: without a return line
+# %% 10.1 wrong: omits the return line | hint: without a return line
 replace("\n    return messages", "")
-# %% 10.1 wrong: a pool with one thread too few | hint: Some calls began only after other calls had returned
-based_on("a pool of threads and one proxy")
+# %% 10.1 wrong: uses a pool with one thread too few | hint: Some calls began only after other calls had returned
+based_on("uses a pool of threads and one proxy")
 replace("(count) as", "(count - 1 or 1) as")
 # %% 10.1 wrong: waits until the list of threads is empty | hint: All calls have returned, but your function has not returned
 replace("for thread in threads:\n        thread.join()", "while threads:\n        time.sleep(0.01)")
 
-# %% 10.2 right: wait_for, and look again
+# %% 10.2 right: uses wait_for, and then looks again
 def handle_detect(watch, request):
     with watch.changed:
         watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
@@ -113,14 +113,14 @@ def handle_detect(watch, request):
         return False, 0, rospy.Time()
     return True, customer.number, customer.arrived
 
-# %% 10.2 right: what wait_for returns
+# %% 10.2 right: uses the return value of wait_for
 replace("(watch, request):", "(watch, request):\n    def who():\n        return watch.next(request.after)\n")
 replace("watch.changed.wait_for … customer.arrived", """customer = watch.changed.wait_for(who, request.patience)
     if customer:
         return DetectCustomerResponse(detected=True, number=customer.number, arrived=customer.arrived)
     return DetectCustomerResponse(detected=False)""")
 
-# %% 10.2 right: a loop with wait
+# %% 10.2 right: uses a loop with wait
 def handle_detect(watch, request):
     end = time.monotonic() + request.patience
     with watch.changed:
@@ -132,7 +132,7 @@ def handle_detect(watch, request):
         return {"detected": False}
     return {"detected": True, "number": customer.number, "arrived": customer.arrived}
 
-# %% 10.2 right: looks ten times a second
+# %% 10.2 right: checks ten times per second
 def handle_detect(watch, request):
     end = time.monotonic() + request.patience
     while True:
@@ -146,112 +146,112 @@ def handle_detect(watch, request):
 # %% 10.2 wrong: waits without a limit | hint: The handler waits longer than request.patience
 replace("(request.after), timeout=request.patience", "(request.after)")
 replace("\n    if customer is None:\n        return False, 0, rospy.Time()", "")
-# %% 10.2 wrong: a new time limit after each change | hint: The time limit started again from the beginning when the customers changed
+# %% 10.2 wrong: starts the time limit again after each change | hint: The time limit started again from the beginning when the customers changed
 replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None:
             if not watch.changed.wait(request.patience):
                 break""")
 # %% 10.2 wrong: remembers a customer who has left | hint: No customer is there. Set the field `detected` to False
 replace("def handle_detect", "seen = {}\n\n\ndef handle_detect")
 replace("        customer = watch.next(request.after)\n", "        customer = seen.get(request.after) or watch.next(request.after)\n    if customer:\n        seen[request.after] = customer\n")
-# %% 10.2 wrong: looks twice a second | hint: so it notices a customer late
-based_on("looks ten times a second")
+# %% 10.2 wrong: checks twice per second | hint: so it notices a customer late
+based_on("checks ten times per second")
 replace("0.1", "0.5")
-# %% 10.2 wrong: looks again without the lock | hint: The handler called watch.next() twice, but the customer left before the second call
+# %% 10.2 wrong: reads the customer again without the lock | hint: The handler called watch.next() twice, but the customer left before the second call
 replace("\n        customer = watch.next(request.after)\n", "\n    customer = watch.next(request.after)\n")
-# %% 10.2 wrong: takes the fields without the lock | hint: The handler called watch.next() twice, but the customer left before the second call
+# %% 10.2 wrong: reads the customer's fields without the lock | hint: The handler called watch.next() twice, but the customer left before the second call
 replace("watch.changed.wait_for … customer.arrived", """there = watch.changed.wait_for(lambda: watch.next(request.after), request.patience)
     if not there:
         return False, 0, rospy.Time()
     return True, watch.next(request.after).number, watch.next(request.after).arrived""")
-# %% 10.2 wrong: looks without waiting | hint: The handler returned too early
+# %% 10.2 wrong: checks once, and does not wait | hint: The handler returned too early
 replace("\n    with watch … customer = watch.next(request.after)", "\n    customer = watch.next(request.after)")
-# %% 10.2 wrong: sleeps, and looks then | hint: A customer was there before the call
+# %% 10.2 wrong: sleeps before the check | hint: A customer was there before the call
 replace("with watch.changed:\n        watch.changed.wait_for(lambda: watch.next(request.after), timeout=", "time.sleep(")
 replace("        customer", "    customer")
-# %% 10.2 wrong: waits for a change without looking | hint: A customer was there before the call
+# %% 10.2 wrong: waits for a change without a check | hint: A customer was there before the call
 replace("wait_for(lambda: watch.next(request.after), timeout=request.patience)", "wait(request.patience)")
-# %% 10.2 wrong: returns at any change | hint: The handler returned before the time was over
+# %% 10.2 wrong: returns after any change | hint: The handler returned before the time was over
 replace("\n        watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """
         if watch.next(request.after) is None:
             watch.changed.wait(request.patience)""")
-# %% 10.2 wrong: keeps the processor busy | hint: Your loop has no pause, so it checks for a customer thousands of times
+# %% 10.2 wrong: uses a loop without a pause | hint: Your loop has no pause, so it checks for a customer thousands of times
 replace("\n    with watch … customer = watch.next(request.after)", """
     end = time.monotonic() + request.patience
     while time.monotonic() < end and watch.next(request.after) is None:
         pass
     customer = watch.next(request.after)""")
-# %% 10.2 wrong: waits for 0 s once, and looks rarely | hint: so it notices a customer late
-based_on("looks ten times a second")
+# %% 10.2 wrong: waits for 0 s once, and then checks rarely | hint: so it notices a customer late
+based_on("checks ten times per second")
 replace("    while True:", "    with watch.changed:\n        watch.changed.wait(0)\n    while True:")
 replace("time.sleep(0.1)", "time.sleep(min(1.2, end - time.monotonic()))")
 # %% 10.2 wrong: sleeps while it holds the condition | hint: The handler did not notice a new customer, because it holds the lock of
 replace("(watch, request):", "(watch, request):\n    end = time.monotonic() + request.patience")
 replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None and time.monotonic() < end:
             time.sleep(0.05)""")
-# %% 10.2 wrong: ignores the field after | hint: The handler returned a customer who is already known to the client
+# %% 10.2 wrong: ignores the field `after` | hint: The handler returned a customer who is already known to the client
 replace("watch.next(request.after)", "watch.next()", times=2)
-# %% 10.2 wrong: a fixed timeout | hint: The handler waits longer than request.patience
+# %% 10.2 wrong: uses a fixed timeout | hint: The handler waits longer than request.patience
 replace("timeout=request.patience", "timeout=5")
-# %% 10.2 wrong: takes the field patience as milliseconds | hint: The handler returned too early
+# %% 10.2 wrong: treats the field `patience` as milliseconds | hint: The handler returned too early
 replace("timeout=request.patience", "timeout=request.patience / 1000")
 # %% 10.2 wrong: passes a value to wait_for instead of a function | hint: The argument of `wait_for` has to be a function, because `wait_for` calls this function
 replace("watch.changed.wait_for(lambda: ", "customer = watch.changed.wait_for(")
 replace("\n        customer = watch.next(request.after)", "")
-# %% 10.2 wrong: fails if there is no customer | hint: watch.next() returns None if no customer is there, and None has no
+# %% 10.2 wrong: reads the fields of None if there is no customer | hint: watch.next() returns None if no customer is there, and None has no
 replace("\n        watch.changed … customer.arrived", """
         customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
     return customer is not None, customer.number, customer.arrived""")
 # %% 10.2 wrong: returns None if there is no customer | hint: Return a response even if no customer came
-based_on("fails if there is no customer")
+based_on("reads the fields of None if there is no customer")
 replace("return customer is not None", "if customer:\n        return True")
 # %% 10.2 wrong: waits without holding the condition | hint: The methods `wait` and `wait_for` need the lock
 replace("with watch … customer = watch.next(request.after)", "customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)")
-# %% 10.2 wrong: no number | hint: The field `number` has its default value, 0
+# %% 10.2 wrong: omits the number | hint: The field `number` has its default value, 0
 replace("watch.changed.wait_for … customer.arrived", """customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
     return DetectCustomerResponse(detected=customer is not None)""")
-# %% 10.2 wrong: no time | hint: The response does not contain the time
-based_on("fails if there is no customer")
+# %% 10.2 wrong: omits the time of arrival | hint: The response does not contain the time
+based_on("reads the fields of None if there is no customer")
 replace("number, customer.arrived", "number if customer else 0, rospy.Time()")
-# %% 10.2 wrong: one caller at a time | hint: One client had to wait for another client
+# %% 10.2 wrong: lets only one caller wait at a time | hint: One client had to wait for another client
 replace("def", "door = threading.Lock()\ndef")
 replace("with watch.changed:", "with door, watch.changed:")
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
-# %% 10.2 wrong: the time of the answer | hint: Two calls for the same customer returned different times
+# %% 10.2 wrong: returns the time of the response | hint: Two calls for the same customer returned different times
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("customer.arrived", "rospy.Time.now()")
-# %% 10.2 wrong: the time of the answer after a wait | hint: Two calls for the same customer returned different times
+# %% 10.2 wrong: returns the time of the response after a wait | hint: Two calls for the same customer returned different times
 replace("    with watch.changed:", "    with watch.changed:\n        waited = not watch.next(request.after)")
 replace("customer.arrived", "rospy.Time.now() if waited else customer.arrived")
-# %% 10.2 wrong: a time although there is no customer | hint: The field `arrived` is wrong
+# %% 10.2 wrong: returns a time although there is no customer | hint: The field `arrived` is wrong
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("rospy.Time()", "rospy.Time.now()")
-# %% 10.2 wrong: waits twice as long as the field patience | hint: The handler waits longer than request.patience
+# %% 10.2 wrong: waits twice as long as requested | hint: The handler waits longer than request.patience
 replace("timeout=request.patience", "timeout=2 * request.patience")
-# %% 10.2 wrong: a number although there is no customer | hint: No customer is there
+# %% 10.2 wrong: returns a number although there is no customer | hint: No customer is there
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("0", "request.after")
-# %% 10.2 wrong: an error if there is no customer | hint: The handler raised an error although it is normal that no customer comes
+# %% 10.2 wrong: raises an error if there is no customer | hint: The handler raised an error although it is normal that no customer comes
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("return False, 0, rospy.Time()", 'raise rospy.ServiceException("nobody came")')
-# %% 10.2 wrong: does not look if the field patience is 0 | hint: If request.patience is 0, do not wait, but still call watch.next() once
-based_on("looks ten times a second")
+# %% 10.2 wrong: does not check if the field `patience` is 0 | hint: If request.patience is 0, do not wait, but still call watch.next() once
+based_on("checks ten times per second")
 replace("True:", "time.monotonic() < end:")
 replace("if time.monotonic … sleep(0.1)", "time.sleep(0.1)\n    return False, 0, rospy.Time()")
-# %% 10.2 wrong: looks, sleeps, and looks again | hint: the handler continued to wait
-based_on("looks without waiting")
+# %% 10.2 wrong: checks, sleeps, and checks again | hint: the handler continued to wait
+based_on("checks once, and does not wait")
 replace("None:", "None:\n        time.sleep(request.patience)\n        customer = watch.next(request.after)\n    if customer is None:")
-# %% 10.2 wrong: leaves detected out | hint: The number is right, but `detected` is False
-based_on("what wait_for returns")
+# %% 10.2 wrong: omits the field `detected` | hint: The number is right, but `detected` is False
+based_on("uses the return value of wait_for")
 replace("detected=True, number", "number")
-# %% 10.2 wrong: the number of customers | hint: The response contains a wrong number
+# %% 10.2 wrong: returns the number of customers | hint: The response contains a wrong number
 replace("customer.number", "watch.count")
 
-# %% 10.3 right: wait_for
+# %% 10.3 right: uses wait_for
 class Basket:
     def __init__(self, limit):
         self.limit = limit
@@ -271,7 +271,7 @@ class Basket:
             self.items -= 1
             return TriggerResponse(success=True, message=str(self.items))
 
-# %% 10.3 right: a loop with a deadline, and notify
+# %% 10.3 right: uses a loop with a deadline, and notify
 class Basket:
     def __init__(self, limit):
         self.limit, self.items = limit, 0
@@ -294,7 +294,7 @@ class Basket:
             self.items -= 1
             return True, str(self.items)
 
-# %% 10.3 right: services in __init__
+# %% 10.3 right: creates its services in __init__
 replace("changed = threading.Condition()", """lock = threading.RLock()
         self.there = threading.Condition(self.lock)
         self.put_service = rospy.Service("/put", Trigger, self.handle_put)
@@ -311,61 +311,61 @@ replace("with self.changed … self.items))", """with self.there:
 
     def is_filled(self):
         return self.items > 0""")
-# %% 10.3 wrong: no notify | hint: An item came, but the waiting call did not return
+# %% 10.3 wrong: does not call notify | hint: An item came, but the waiting call did not return
 replace("\n            self.changed.notify_all()", "")
-# %% 10.3 wrong: a list in the class | hint: Two baskets share their items
+# %% 10.3 wrong: stores the items in a list of the class | hint: Two baskets share their items
 replace("    def __init__", "    items = []\n\n    def __init__")
 replace("        self.items = 0\n", "")
 replace("self.items += 1", "self.items.append(1)")
 replace("str(self.items)", "str(len(self.items))", times=2)
 replace("self.items > 0", "self.items")
 replace("self.items -= 1", "self.items.pop()")
-# %% 10.3 wrong: no loop | hint: The handler of /take returned an item although the basket was empty
+# %% 10.3 wrong: does not check again after a wake-up | hint: The handler of /take returned an item although the basket was empty
 replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "if self.items == 0 and not self.changed.wait(self.limit)")
-# %% 10.3 wrong: no limit | hint: The handler of /take waits longer than the time limit
+# %% 10.3 wrong: waits without a limit | hint: The handler of /take waits longer than the time limit
 replace(", timeout=self.limit", "")
-# %% 10.3 wrong: does not wait | hint: The handler of /take returned before its time limit was over
+# %% 10.3 wrong: does not wait for an item | hint: The handler of /take returned before its time limit was over
 replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "self.items == 0")
-# %% 10.3 wrong: gives up at the first wake-up | hint: The handler of /take returned before its time limit was over
+# %% 10.3 wrong: gives up after the first wake-up | hint: The handler of /take returned before its time limit was over
 replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):", """self.items == 0:
                 self.changed.wait(self.limit)
             if self.items == 0:""")
-# %% 10.3 wrong: gives up at the first wake-up of a condition in a list | hint: The handler of /take returned before its time limit was over
-based_on("gives up at the first wake-up")
+# %% 10.3 wrong: gives up after the first wake-up, and hides the condition in a list | hint: The handler of /take returned before its time limit was over
+based_on("gives up after the first wake-up")
 replace("        self.changed = ", "        self.tools = [None]\n        self.tools[0] = ")
 replace("self.changed", "self.tools[0]", times=4)
-# %% 10.3 wrong: waits before it looks | hint: An item was in the basket before the call
+# %% 10.3 wrong: waits before the check | hint: An item was in the basket before the call
 replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):", "self.changed.wait(self.limit)\n            if self.items == 0:")
-# %% 10.3 wrong: the whole limit after each wake-up | hint: The handler of /take waits longer than the time limit
-based_on("a loop with a deadline, and notify")
+# %% 10.3 wrong: waits for the whole limit after each wake-up | hint: The handler of /take waits longer than the time limit
+based_on("uses a loop with a deadline, and notify")
 replace("notify", "notify_all")
 replace("\n        end = time.monotonic() + self.limit", "")
 replace("left = end … wait(left)", 'if not self.changed.wait(self.limit):\n                    return False, "empty"')
 # %% 10.3 wrong: sleeps while it holds the lock | hint: /put did not respond while a call of /take was waiting
-based_on("a loop with a deadline, and notify")
+based_on("uses a loop with a deadline, and notify")
 replace("self.changed.wait(left)", "time.sleep(0.05)")
 # %% 10.3 wrong: waits without the lock | hint: The methods `wait` and `notify` need the lock of the condition
-based_on("a loop with a deadline, and notify")
+based_on("uses a loop with a deadline, and notify")
 replace("with self.changed:\n            while", "if True:\n            while")
-# %% 10.3 wrong: a number as the message | hint: The field `message` has to be a string
+# %% 10.3 wrong: returns a number as the message | hint: The field `message` has to be a string
 replace("message=str(self.items)", "message=self.items", times=2)
-# %% 10.3 wrong: empty as an error | hint: An empty basket is not an error
+# %% 10.3 wrong: raises an error if the basket is empty | hint: An empty basket is not an error
 replace('return TriggerResponse(success=False, message="empty")', 'raise rospy.ServiceException("empty")')
-# %% 10.3 wrong: no response after the limit | hint: not a response. Return a response in every case
+# %% 10.3 wrong: returns None after the time limit | hint: not a response. Return a response in every case
 replace('return TriggerResponse(success=False, message="empty")', "return None")
-# %% 10.3 wrong: another word for empty | hint: No item came, but the response is wrong
+# %% 10.3 wrong: returns another message for an empty basket | hint: No item came, but the response is wrong
 replace('"empty"', '"nothing there"')
-# %% 10.3 wrong: full after ten items | hint: The basket did not accept an item
+# %% 10.3 wrong: accepts only ten items | hint: The basket did not accept an item
 replace("            self.items += 1", """            if self.items >= 10:
                 return TriggerResponse(success=False, message="full")
             self.items += 1""")
-# %% 10.3 wrong: leaves success out | hint: The message is right, but the field `success` is wrong
+# %% 10.3 wrong: omits success | hint: The message is right, but the field `success` is wrong
 replace("success=True, ", "", times=2)
-# %% 10.3 wrong: counts before the change | hint: the number of items in the basket after the call
-based_on("a loop with a deadline, and notify")
+# %% 10.3 wrong: returns the number before the change | hint: the number of items in the basket after the call
+based_on("uses a loop with a deadline, and notify")
 replace("True, str(self.items)\n\n", "True, str(self.items - 1)\n\n")
 
-# %% 10.4 right: a with block
+# %% 10.4 right: uses a with block
 class Stock:
     def __init__(self, shelf):
         self.shelf = shelf
@@ -379,7 +379,7 @@ class Stock:
             self.shelf.write(count - 1)
         return TriggerResponse(success=True, message=str(count - 1))
 
-# %% 10.4 right: acquire and release, one lock for all
+# %% 10.4 right: uses acquire and release, and one lock for all objects
 class Stock:
     everybody = threading.RLock()
 
@@ -397,15 +397,15 @@ class Stock:
         finally:
             Stock.everybody.release()
 
-# %% 10.4 wrong: no lock | hint: Two handlers read the same number
+# %% 10.4 wrong: uses no lock | hint: Two handlers read the same number
 replace("        self.lock = … count - 1)", """
     def handle_take(self, request):
         count = self.shelf.read()
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)""")
-# %% 10.4 wrong: changes rospy in place of a lock | hint: The handlers never ran at the same time
-based_on("no lock")
+# %% 10.4 wrong: changes rospy instead of using a lock | hint: The handlers never ran at the same time
+based_on("uses no lock")
 replace("class Stock", """from rospy.impl.tcpros_service import ServiceImpl
 
 LOCK, HANDLE = threading.Lock(), ServiceImpl._handle_request
@@ -420,28 +420,28 @@ ServiceImpl._handle_request = one_by_one
 
 
 class Stock""")
-# %% 10.4 wrong: reads the shelf again after the lock | hint: Two clients got the same number of things
+# %% 10.4 wrong: reads the shelf again after it has released the lock | hint: Two clients got the same number of things
 replace("        return TriggerResponse(success=True, message=str(count - 1))", "        return TriggerResponse(success=True, message=str(self.shelf.read()))")
 # %% 10.4 wrong: reads the shelf only once | hint: New things were put on the shelf
 replace("self.shelf = shelf", "self.shelf, self.count = shelf, shelf.read()")
 replace("            count = self.shelf.read()\n", "            count = self.count\n")
 replace("self.shelf.write(count - 1)", "self.count = count - 1\n            self.shelf.write(count - 1)")
-# %% 10.4 wrong: a lock for each call | hint: Two handlers read the same number, so too many things were sold
+# %% 10.4 wrong: creates a lock for each call | hint: Two handlers read the same number, so too many things were sold
 replace("\n        self.lock = threading.Lock()", "")
 replace("self.lock", "threading.Lock()")
 replace("(count - 1)\n        ", "(count - 1)\n            ")
-# %% 10.4 wrong: locks the writing only | hint: Two handlers read the same number, so too many things were sold
-based_on("no lock")
+# %% 10.4 wrong: locks only the writing | hint: Two handlers read the same number, so too many things were sold
+based_on("uses no lock")
 replace("\n\n", "\n\n        self.lock = threading.Lock()\n\n")
 replace("self.shelf.write(count - 1)", "with self.lock:\n            self.shelf.write(count - 1)")
-# %% 10.4 wrong: keeps the lock when sold out | hint: A client waits forever, because a thread does not release the lock
+# %% 10.4 wrong: does not release the lock if the shelf is empty | hint: A client waits forever, because a thread does not release the lock
 replace("with self. … count - 1)", """self.lock.acquire()
         count = self.shelf.read()
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)
         self.lock.release()""")
-# %% 10.4 wrong: locks again while it holds the lock | hint: A client waits forever, because a thread does not release the lock
+# %% 10.4 wrong: acquires the lock again while it holds the lock | hint: A client waits forever, because a thread does not release the lock
 replace("Lock()\n", "Lock()\n\n    def left(self):\n        with self.lock:\n            return self.shelf.read()\n")
 replace("= self.shelf.read()", "= self.left()")
 # %% 10.4 wrong: refuses a caller while the lock is taken | hint: Some things were left, but a client got none of them
@@ -450,7 +450,7 @@ replace("with self.lock:", """if not self.lock.acquire(blocking=False):
         try:""")
 replace("(count - 1)\n        ", "(count - 1)\n            ")
 replace("1))", "1))\n        finally:\n            self.lock.release()")
-# %% 10.4 wrong: does not check that something is left | hint: The shelf was empty, but `success` is True
+# %% 10.4 wrong: does not check whether the shelf is empty | hint: The shelf was empty, but `success` is True
 replace("count = self … count - 1))", """count = self.shelf.read() - 1
             self.shelf.write(count)
         return TriggerResponse(success=True, message=str(count))""")
@@ -461,25 +461,25 @@ replace("shelf = shelf", "count = shelf.read()")
 replace("count = self.shelf.read()\n            if count == 0:", "if self.count == 0:")
 replace("shelf.write(count - 1)", "count -= 1")
 replace("return TriggerResponse(success=True, message=str(count - 1))", "    return TriggerResponse(success=True, message=str(self.count))")
-# %% 10.4 wrong: sold out as an error | hint: "Sold out" is a normal response, not an error
+# %% 10.4 wrong: raises an error if the shelf is empty | hint: "Sold out" is a normal response, not an error
 replace('return TriggerResponse(success=False, message="', 'raise rospy.ServiceException("')
-# %% 10.4 wrong: a number for a message | hint: The field `message` has to be a string
+# %% 10.4 wrong: returns a number as the message | hint: The field `message` has to be a string
 replace("str(count - 1)", "count - 1")
-# %% 10.4 wrong: reads under the lock, writes outside | hint: Two handlers read the same number, so too many things were sold
+# %% 10.4 wrong: reads with the lock, and writes without the lock | hint: Two handlers read the same number, so too many things were sold
 replace("\n            if count = … count - 1)", """
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)""")
-# %% 10.4 wrong: no lock in self | hint: self.lock does not exist
+# %% 10.4 wrong: does not create the lock | hint: self.lock does not exist
 replace("\n        self.lock = threading.Lock()", "")
-# %% 10.4 wrong: changes the count of the shelf | hint: Your code uses a method that a shelf does not have
+# %% 10.4 wrong: changes an attribute of the shelf | hint: Your code uses a method that a shelf does not have
 replace("self.shelf.read()", "self.shelf.count")
 replace("self.shelf.write(count - 1)", "self.shelf.count -= 1")
-# %% 10.4 wrong: leaves success out | hint: A thing was there, but `success` has its default value, False
+# %% 10.4 wrong: omits success | hint: A thing was there, but `success` has its default value, False
 replace("success=True, message=str", "message=str")
-# %% 10.4 wrong: leaves the message out | hint: Set the message to the number of things that are left, as a string
+# %% 10.4 wrong: omits the message | hint: Set the message to the number of things that are left, as a string
 replace(", message=str(count - 1)", "")
-# %% 10.4 wrong: another message for sold out | hint: Return the number of things that are left, such as "7", or the text
+# %% 10.4 wrong: returns another message for an empty shelf | hint: Return the number of things that are left, such as "7", or the text
 replace('"sold out"', '"nothing left"')
 # %% 10.4 wrong: replaces the methods of the shelf | hint: The number on the shelf is wrong
 replace("        self.lock = threading.Lock()", """        self.lock = threading.Lock()
@@ -487,7 +487,7 @@ replace("        self.lock = threading.Lock()", """        self.lock = threading
         type(shelf).read = lambda self: self.things
         type(shelf).write = lambda self, count: setattr(self, "things", count)""")
 
-# %% 10.5 right: reserve, pay, put back
+# %% 10.5 right: reserves, pays, and puts back after a failure
 class Shop:
     def __init__(self, shelf, cents, till):
         self.shelf = shelf
@@ -513,7 +513,7 @@ class Shop:
             return TriggerResponse(success=False, message=f"not paid: {error}")
         return TriggerResponse(success=True, message=str(receipt))
 
-# %% 10.5 right: a separate method for changes
+# %% 10.5 right: uses a separate method for changes
 class Shop:
     def __init__(self, shelf, cents, till):
         self.shelf, self.cents = shelf, cents
@@ -544,13 +544,13 @@ class Shop:
             return False, str(error)
         return True, str(answer.receipt)
 
-# %% 10.5 wrong: holds the lock across the call | hint: Your handler holds the lock while it calls the till, so /left cannot
+# %% 10.5 wrong: holds the lock during the call | hint: Your handler holds the lock while it calls the till, so /left cannot
 replace('self.shelf.write(count - … : {error}")', """try:
                 receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt
             except rospy.ServiceException as error:
                 return TriggerResponse(success=False, message=f"not paid: {error}")
             self.shelf.write(count - 1)""")
-# %% 10.5 wrong: holds the lock across the call, and /left waits for it only briefly | hint: The till had only a few calls at the same time
+# %% 10.5 wrong: holds the lock during the call, and /left waits only briefly | hint: The till had only a few calls at the same time
 replace("        with self.lock:\n            return Trigger", "        held = self.lock.acquire(timeout=0.2)\n        number = self.shelf.read()\n        if held:\n            self.lock.release()\n        return Trigger")
 replace('message=str(self.shelf.read())', 'message=str(number)')
 replace('self.shelf.write(count - … : {error}")', """self.shelf.write(count - 1)
@@ -559,7 +559,7 @@ replace('self.shelf.write(count - … : {error}")', """self.shelf.write(count - 
             except rospy.ServiceException as error:
                 self.shelf.write(count)
                 return TriggerResponse(success=False, message=f"not paid: {error}")""")
-# %% 10.5 wrong: a semaphore with two permits across the call | hint: The till had only a few calls at the same time
+# %% 10.5 wrong: holds a semaphore with two permits during the call | hint: The till had only a few calls at the same time
 replace("    def handle_buy(self, request):", """    permits = threading.BoundedSemaphore(2)
 
     def handle_buy(self, request):
@@ -574,7 +574,7 @@ replace("\n            with self.lock:\n                self.shelf.write(self.sh
 replace('(success=False, message=f"not paid: {error}")', """(success=False, message=f"not paid: {error}")
         with self.lock:
             self.shelf.write(self.shelf.read() - 1)""")
-# %% 10.5 wrong: only /left counts the buyers | hint: The number on the shelf is different from the number that /left returns
+# %% 10.5 wrong: counts the buyers only in /left | hint: The number on the shelf is different from the number that /left returns
 based_on("takes the thing after the payment")
 replace("self.lock = threading.Lock()", "self.lock = threading.Lock()\n        self.paying = 0")
 replace("message=str(self.shelf.read())", "message=str(self.shelf.read() - self.paying)")
@@ -582,31 +582,31 @@ replace("if self.shelf.read() == 0:", "if self.shelf.read() == self.paying:")
 replace("        try:", "            self.paying += 1\n        try:")
 replace("as error:", "as error:\n            with self.lock:\n                self.paying -= 1")
 replace("self.shelf.write(self.shelf.read() - 1)", "self.shelf.write(self.shelf.read() - 1)\n            self.paying -= 1")
-# %% 10.5 wrong: puts nothing back | hint: the thing is not on the shelf
+# %% 10.5 wrong: puts nothing back after a failed payment | hint: the thing is not on the shelf
 replace("\n            with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "")
-# %% 10.5 wrong: catches nothing | hint: The call of the till failed, and the exception ended your handler
+# %% 10.5 wrong: catches no exception | hint: The call of the till failed, and the exception ended your handler
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt")
-# %% 10.5 wrong: puts back what it counted before | hint: Between a read of the shelf and the write that followed
+# %% 10.5 wrong: puts back the number that it read before | hint: Between a read of the shelf and the write that followed
 replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "time.sleep(0.2)\n            self.shelf.write(count)")
-# %% 10.5 wrong: waits for the till | hint: No server offers the till's service, but the handler waits
+# %% 10.5 wrong: waits for the till's service | hint: No server offers the till's service, but the handler waits
 replace("try:", "rospy.wait_for_service(self.till)\n        try:")
-# %% 10.5 wrong: sells without a till | hint: No server offers the till's service, so the client did not pay
+# %% 10.5 wrong: sells if there is no till | hint: No server offers the till's service, so the client did not pay
 replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n                return TriggerResponse(success=True, message="pay later")\n')
-# %% 10.5 wrong: puts nothing back without a till | hint: so the thing is not sold
+# %% 10.5 wrong: puts nothing back if there is no till | hint: so the thing is not sold
 replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n                return TriggerResponse(success=False, message="no till")\n')
-# %% 10.5 wrong: one id for all | hint: Two purchases have the same request_id
+# %% 10.5 wrong: uses one id for all payments | hint: Two purchases have the same request_id
 replace("threading.Lock()", "threading.Lock()\n        self.request_id = str(uuid.uuid4())")
 replace("str(uuid.uuid4()),", "self.request_id,")
-# %% 10.5 wrong: ids from a counter | hint: The ids come from a counter, and another program
+# %% 10.5 wrong: takes the ids from a counter | hint: The ids come from a counter, and another program
 replace("str(uuid.uuid4())", "str(next(NUMBERS))")
 replace("class Shop", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\nclass Shop")
-# %% 10.5 wrong: no id | hint: The field `request_id` is empty
+# %% 10.5 wrong: sends no id | hint: The field `request_id` is empty
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(cents=self.cents).receipt")
-# %% 10.5 wrong: another message for sold out | hint: The shelf is empty, but the handler did not report this
+# %% 10.5 wrong: returns another message for an empty shelf | hint: The shelf is empty, but the handler did not report this
 replace('"sold out"', '"nothing left"')
-# %% 10.5 wrong: a message without the reason | hint: If the call of the till fails, return the text of the error, str(error),
+# %% 10.5 wrong: omits the reason in the message | hint: If the call of the till fails, return the text of the error, str(error),
 replace('False, message=f"not paid: {error}"', "False")
-# %% 10.5 wrong: calls the till again | hint: The call of the till failed, and your handler called the till
+# %% 10.5 wrong: calls the till again after a failure | hint: The call of the till failed, and your handler called the till
 replace("self.shelf = shelf … threading.Lock()\n", """self.shelf, self.cents, self.till = shelf, cents, till
         self.lock = threading.Lock()""")
 replace("(success=True, message=str(self.shelf.read()))\n", "(success=True, message=str(self.shelf.read()))")
@@ -620,23 +620,23 @@ replace("try: … (receipt))", """request_id = str(uuid.uuid4())
         with self.lock:
             self.shelf.write(self.shelf.read() + 1)
         return TriggerResponse(success=False, message=why)""")
-# %% 10.5 wrong: the stock as the request_id | hint: Two purchases have the same request_id
+# %% 10.5 wrong: uses the number on the shelf as the request_id | hint: Two purchases have the same request_id
 replace("str(uuid.uuid4())", 'f"purchase {count}"')
-# %% 10.5 wrong: sold out as an error | hint: "Sold out" is a normal response of /buy, not an error
+# %% 10.5 wrong: raises an error if the shelf is empty | hint: "Sold out" is a normal response of /buy, not an error
 replace('return TriggerResponse(success=False, message="', 'raise rospy.ServiceException("')
 # %% 10.5 wrong: does not release the lock | hint: A client waits forever, because a lock was not released
 replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "self.lock.acquire()\n            self.shelf.write(self.shelf.read() + 1)")
-# %% 10.5 wrong: another price | hint: The till was called with a wrong amount, or more than once
+# %% 10.5 wrong: sends another price | hint: The till was called with a wrong amount, or more than once
 replace("self.cents).receipt", "100 * self.cents).receipt")
 # %% 10.5 wrong: does not call the till | hint: The till was not called
 replace("rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt", "uuid.uuid4()")
-# %% 10.5 wrong: a sentence in place of the number | hint: The message of /left is wrong
+# %% 10.5 wrong: returns a sentence in /left instead of the number | hint: The message of /left is wrong
 replace("message=str(self.shelf.read())", 'message=f"{self.shelf.read()} are left"')
-# %% 10.5 wrong: leaves success out | hint: The till has taken the money, but `success` is False
+# %% 10.5 wrong: omits success | hint: The till has taken the money, but `success` is False
 replace("success=True, message=str(receipt)", "message=str(receipt)")
-# %% 10.5 wrong: the stock in place of the receipt | hint: The message of /buy is wrong
+# %% 10.5 wrong: returns the number on the shelf instead of the receipt | hint: The message of /buy is wrong
 replace("str(receipt)", "str(count - 1)")
-# %% 10.5 wrong: a success although the till failed | hint: The till did not take the money, but `success` is True
+# %% 10.5 wrong: returns success=True although the payment failed | hint: The till did not take the money, but `success` is True
 replace('success=False, message=f"not paid', 'success=True, message=f"not paid')
 # %% 10.5 wrong: replaces the methods of the shelf | hint: The number on the shelf is different from the number that /left returns
 replace("        self.shelf = shelf", """        self.shelf = shelf
@@ -644,7 +644,7 @@ replace("        self.shelf = shelf", """        self.shelf = shelf
         type(shelf).read = lambda self: self.things
         type(shelf).write = lambda self, count: setattr(self, "things", count)""")
 
-# %% 10.6 right: sorted by number
+# %% 10.6 right: sorts the shelves by their numbers
 def move(source, target):
     first, second = sorted((source, target), key=lambda shelf: shelf.number)
     with first.lock, second.lock:
@@ -654,7 +654,7 @@ def move(source, target):
         target.count += 1
         return True
 
-# %% 10.6 right: acquire and release
+# %% 10.6 right: uses acquire and release
 def move(source, target):
     if source.number < target.number:
         locks = [source.lock, target.lock]
@@ -670,7 +670,7 @@ def move(source, target):
         lock.release()
     return moved
 
-# %% 10.6 right: tries the second lock, and gives up the first one
+# %% 10.6 right: tries the second lock, and releases the first lock if this fails
 import random
 
 
@@ -692,7 +692,7 @@ def move(source, target):
 replace("    first, second = sorted((source, target), key=lambda shelf: shelf.number)\n", "")
 replace("with first.lock, second.lock", "with source.lock, target.lock")
 
-# %% 10.6 wrong: changes threading in place of an order | hint: The threads of the check ran one after the other
+# %% 10.6 wrong: changes threading instead of the order of the locks | hint: The threads of the check ran one after the other
 based_on("locks the source first")
 replace("def move", """class Inline(threading.Thread):
     def start(self):
@@ -716,31 +716,31 @@ def move(source, target):
             target.count += 1
             return True
 
-# %% 10.6 wrong: one lock after the other | hint: The function changed a count while it did not hold both locks, so another
+# %% 10.6 wrong: holds only one lock at a time | hint: The function changed a count while it did not hold both locks, so another
 replace("first, second = sorted((source, target), key=lambda shelf: shelf.number)\n    with first.lock, second.lock:", "with source.lock:")
 replace("\n        target.count += 1\n        return True", "\n    with target.lock:\n        target.count += 1\n    return True")
-# %% 10.6 wrong: one additional lock for all | hint: The function changed a count while it did not hold both locks, so another
+# %% 10.6 wrong: uses one additional lock for all moves | hint: The function changed a count while it did not hold both locks, so another
 replace("def move", "whole = threading.Lock()\n\n\ndef move")
 replace("with first.lock, second.lock", "with whole")
-# %% 10.6 wrong: does not look at the count | hint: The count of an empty shelf became negative
+# %% 10.6 wrong: does not check the number on the source shelf | hint: The count of an empty shelf became negative
 replace("if source.count == 0:\n            return False\n        ", "if source.count == -1:\n            return False\n        ")
 replace("        return True", "        return source.count >= 0")
-# %% 10.6 wrong: True from an empty shelf | hint: The returned value is wrong
+# %% 10.6 wrong: returns True for an empty shelf | hint: The returned value is wrong
 replace("return False", "return True")
-# %% 10.6 wrong: no return value | hint: The function returned None. Return True
+# %% 10.6 wrong: omits the return value | hint: The function returned None. Return True
 replace("\n        return True", "")
 replace("return False", "return")
-# %% 10.6 wrong: takes the same lock twice | hint: a lock that its own thread already holds
+# %% 10.6 wrong: acquires the same lock twice | hint: a lock that its own thread already holds
 replace("first.lock, second.lock", "first.lock, first.lock")
-# %% 10.6 wrong: releases only after a move | hint: The function returned, but a lock is still held
-based_on("acquire and release")
+# %% 10.6 wrong: releases the locks only after a move | hint: The function returned, but a lock is still held
+based_on("uses acquire and release")
 replace("        target.count = target.count + 1\n    for lock in locks:\n        lock.release()", "        target.count = target.count + 1\n        for lock in locks:\n            lock.release()")
 # %% 10.6 wrong: releases a lock twice | hint: The function released a lock that it did not hold
 replace("        return True", "        first.lock.release()\n        return True")
-# %% 10.6 wrong: sorts without a key | hint: Python cannot compare two shelves
+# %% 10.6 wrong: sorts the shelves without a key | hint: Python cannot compare two shelves
 replace(", key=lambda shelf: shelf.number", "")
-# %% 10.6 wrong: gives up when a lock is taken | hint: although the shelf was not empty
-based_on("tries the second lock, and gives up the first one")
+# %% 10.6 wrong: gives up if a lock is taken | hint: although the shelf was not empty
+based_on("tries the second lock, and releases the first lock if this fails")
 replace("        time.sleep(0.03 * random.random())", "        return False")
 # %% 10.6 wrong: tries again while it holds the first lock | hint: release the first lock before each new attempt
 based_on("locks the target first")
@@ -749,18 +749,18 @@ replace("with target.lock:\n        with source.lock:", """with source.lock:
             time.sleep(0.01)
         try:""")
 replace("return True", "return True\n        finally:\n            target.lock.release()")
-# %% 10.6 wrong: only subtracts | hint: The total number of things changed
+# %% 10.6 wrong: does not add to the target shelf | hint: The total number of things changed
 replace("\n        target.count += 1", "")
-# %% 10.6 wrong: the wrong direction | hint: The counts after the call are wrong
+# %% 10.6 wrong: moves two things | hint: The counts after the call are wrong
 replace("source.count -= 1", "source.count, target.count = source.count - 2, target.count + 1")
-# %% 10.6 wrong: looks before it has the locks | hint: The function read a count before it held both locks, so another thread can
+# %% 10.6 wrong: checks the number before it has the locks | hint: The function read a count before it held both locks, so another thread can
 replace("    first, second", "    if source.count == 0:\n        return False\n    first, second")
-# %% 10.6 wrong: orders the locks by the counts | hint: The function read a count before it held both locks, so another thread can
+# %% 10.6 wrong: orders the locks by the numbers on the shelves | hint: The function read a count before it held both locks, so another thread can
 replace("shelf.number", "shelf.count")
-# %% 10.6 wrong: moves from the first lock to the second | hint: The counts after the call are wrong
+# %% 10.6 wrong: always moves from the first lock's shelf to the second lock's shelf | hint: The counts after the call are wrong
 replace("source.count", "first.count", times=2)
 replace("target.count", "second.count")
-# %% 10.6 wrong: moves from the second lock to the first | hint: The source was not empty, but the function returned False
+# %% 10.6 wrong: always moves from the second lock's shelf to the first lock's shelf | hint: The source was not empty, but the function returned False
 replace("source.count", "second.count", times=2)
 replace("target.count", "first.count")
 # %% 10.6 wrong: replaces the locks of the shelves | hint: The function changed a count while it did not hold both locks, so another
@@ -768,31 +768,31 @@ replace("    first, second", """    own = property(lambda self: vars(self).setde
     type(source).lock = type(target).lock = own
     first, second""")
 
-# %% 10.7 right: one after the other
+# %% 10.7 right: writes the cases in the order of the table
 solution()
 
-# %% 10.7 right: in another order
+# %% 10.7 right: writes the cases in another order
 causes = dict(F="no loop", E="no notify", D="race")
 causes.update(zip("ABC", ["lock across a call", "lock order", "no limit"]))
 
-# %% 10.7 wrong: A and B exchanged | hint: The cause "lock order" means that two threads … Follow the calls from thread to thread
+# %% 10.7 wrong: exchanges A and B | hint: The cause "lock order" means that two threads … Follow the calls from thread to thread
 replace('"A": "lock across a call"', '"A": "lock order"')
 replace('"B": "lock order"', '"B": "lock across a call"')
-# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: The cause "lock across a call" means … Each of the two threads holds the lock of one shelf and
+# %% 10.7 wrong: gives "lock across a call" instead of "lock order" | hint: The cause "lock across a call" means … Each of the two threads holds the lock of one shelf and
 replace('"lock order"', '"lock across a call"')
-# %% 10.7 wrong: C and E exchanged | hint: The cause "no notify" means that a thread sleeps although an item is there … The clients have ended, but the number of waiting threads still grows
+# %% 10.7 wrong: exchanges C and E | hint: The cause "no notify" means that a thread sleeps although an item is there … The clients have ended, but the number of waiting threads still grows
 replace('"C": "no limit"', '"C": "no notify"')
 replace('"E": "no notify"', '"E": "no limit"')
-# %% 10.7 wrong: a missing notify taken for a missing limit | hint: The cause "no limit" means that a wait never ends, even after the client … The item came after two seconds, but the handler returned only when
+# %% 10.7 wrong: gives "no limit" instead of "no notify" | hint: The cause "no limit" means that a wait never ends, even after the client … The item came after two seconds, but the handler returned only when
 replace('"no notify"', '"no limit"')
-# %% 10.7 wrong: D and F exchanged | hint: The cause "no loop" means that a thread continues after it has woken up, … Only the returned numbers are wrong
+# %% 10.7 wrong: exchanges D and F | hint: The cause "no loop" means that a thread continues after it has woken up, … Only the returned numbers are wrong
 replace('"D": "race"', '"D": "no loop"')
 replace('"F": "no loop"', '"F": "race"')
-# %% 10.7 wrong: a missing loop taken for a race | hint: In a race, no thread waits … Only one item came, but several threads woke up, and each of them took
+# %% 10.7 wrong: gives "race" instead of "no loop" | hint: In a race, no thread waits … Only one item came, but several threads woke up, and each of them took
 replace('"no loop"', '"race"')
-# %% 10.7 wrong: a case left out | hint: The answer for a case is missing
+# %% 10.7 wrong: omits a case | hint: The answer for a case is missing
 replace('\n    "F": "no loop",', "")
-# %% 10.7 wrong: small letters | hint: as strings with capital letters
+# %% 10.7 wrong: uses a small letter as a key | hint: as strings with capital letters
 replace('"A"', '"a"')
-# %% 10.7 wrong: other words | hint: Copy the names from the list of causes
+# %% 10.7 wrong: uses another text for a cause | hint: Copy the names from the list of causes
 replace('"race"', '"data race"')

@@ -1,6 +1,6 @@
 """Example answers of chapter 11; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 11.1 right: field by field
+# %% 11.1 right: packs field by field
 def pack_header(fields):
     body = b""
     for name, value in fields.items():
@@ -8,35 +8,35 @@ def pack_header(fields):
         body += struct.pack("<I", len(text)) + text
     return struct.pack("<I", len(body)) + body
 
-# %% 11.1 right: without struct
+# %% 11.1 right: packs without struct
 def pack_header(fields):
     def sized(data):
         return len(data).to_bytes(4, "little") + data
 
     return sized(b"".join(sized((name + "=" + value).encode("utf-8")) for name, value in fields.items()))
 
-# %% 11.1 right: library, sorted
+# %% 11.1 right: uses a function of rosgraph
 import rosgraph.network
 def pack_header(fields):
     return rosgraph.network.encode_ros_handshake_header(fields)
 
-# %% 11.1 wrong: big-endian | hint: The lengths are big-endian
+# %% 11.1 wrong: uses big-endian lengths | hint: The lengths are big-endian
 replace("<", "!", times=2)
-# %% 11.1 wrong: no length of the whole header | hint: The length of the whole header is missing
+# %% 11.1 wrong: omits the length of the whole header | hint: The length of the whole header is missing
 replace('struct.pack("<I", len(body)) + body', "body")
-# %% 11.1 wrong: counts its own length | hint: The first length is too large by 4
+# %% 11.1 wrong: includes the length's own 4 bytes | hint: The first length is too large by 4
 replace("(body)", "(body) + 4")
-# %% 11.1 wrong: counts the fields | hint: The header begins with the number of its fields
+# %% 11.1 wrong: writes the number of fields | hint: The header begins with the number of its fields
 replace('b""', 'struct.pack("<I", len(fields))')
 replace('struct.pack("<I", len(body)) + body', "body")
-# %% 11.1 wrong: counts letters | hint: A length is a number of bytes, and the letter ü has two bytes
+# %% 11.1 wrong: counts letters instead of bytes | hint: A length is a number of bytes, and the letter ü has two bytes
 replace('"{name}={value}".encode()', '"{name}={value}"')
 replace("+ text", "+ text.encode()")
-# %% 11.1 wrong: lines, as in HTTP | hint: The text between name and value is wrong
+# %% 11.1 wrong: writes name and value as in HTTP | hint: The text between name and value is wrong
 replace("{name}={value}", "{name}: {value}")
-# %% 11.1 wrong: leaves out an empty value | hint: A field with an empty value is missing
+# %% 11.1 wrong: omits a field with an empty value | hint: A field with an empty value is missing
 replace("        text = f", "        if not value:\n            continue\n        text = f")
-# %% 11.1 wrong: one length for all | hint: The length of a field is missing
+# %% 11.1 wrong: writes no length for each field | hint: The length of a field is missing
 replace('body = b"" … text)) + text', 'body = "".join(f"{name}={value}" for name, value in fields.items()).encode()')
 
 # %% 11.1 wrong: forgets to return | hint: without a return line
@@ -44,28 +44,28 @@ def pack_header(fields):
     body = b"".join(struct.pack("<I", len(name)) + name.encode() for name in fields)
     struct.pack("<I", len(body)) + body
 
-# %% 11.1 wrong: text | hint: The function returned a str, but a socket sends bytes
+# %% 11.1 wrong: returns a str | hint: The function returned a str, but a socket sends bytes
 replace('body = b"" … body)) + body', 'return "\\n".join(f"{name}={value}" for name, value in fields.items())')
-# %% 11.1 wrong: ascii | hint: ASCII does not contain the letter ü
+# %% 11.1 wrong: encodes the text in ASCII | hint: ASCII does not contain the letter ü
 replace("encode()", 'encode("ascii")')
-# %% 11.1 wrong: latin-1 | hint: The text is encoded in Latin-1
+# %% 11.1 wrong: encodes the text in Latin-1 | hint: The text is encoded in Latin-1
 replace("encode()", 'encode("latin-1")')
-# %% 11.1 wrong: list of ints | hint: The function returned numbers, but a socket sends bytes
+# %% 11.1 wrong: returns a list of ints | hint: The function returned numbers, but a socket sends bytes
 replace('struct.pack("<I", len(body)) + body', 'list(struct.pack("<I", len(body)) + body)')
-# %% 11.1 wrong: a list class with the name bytes | hint: The function returned numbers, but a socket sends bytes
+# %% 11.1 wrong: returns a list class with the name bytes | hint: The function returned numbers, but a socket sends bytes
 replace("def pack_header", "class bytes(list):\n    pass\n\n\ndef pack_header")
 replace('struct.pack("<I", len(body)) + body', 'bytes(struct.pack("<I", len(body)) + body)')
-# %% 11.1 wrong: two-byte lengths | hint: A length has the wrong number of bytes
+# %% 11.1 wrong: uses lengths of two bytes | hint: A length has the wrong number of bytes
 replace("I", "H", times=2)
-# %% 11.1 wrong: nothing for an empty header | hint: For a header without fields, the result is wrong
+# %% 11.1 wrong: returns nothing for an empty header | hint: For a header without fields, the result is wrong
 replace("(fields):", '(fields):\n    if not fields:\n        return b""')
-# %% 11.1 wrong: a line end in each field | hint: Some bytes are wrong
+# %% 11.1 wrong: adds a line end to each field | hint: Some bytes are wrong
 replace("{name}={value}", "{name}={value}\\n")
-# %% 11.1 wrong: lengths of one byte | hint: The function failed because a length was greater than 255
+# %% 11.1 wrong: allows only lengths below 256 | hint: The function failed because a length was greater than 255
 replace('struct.pack("<I", len(text)) + text', "bytes([len(text), 0, 0, 0]) + text")
 replace('struct.pack("<I", len(body))', "bytes([len(body), 0, 0, 0])")
 
-# %% 11.2 right: adds up
+# %% 11.2 right: adds the pieces to a bytes object
 def receive(sock, count):
     data = b""
     while len(data) < count:
@@ -75,7 +75,7 @@ def receive(sock, count):
         data += piece
     return data
 
-# %% 11.2 right: a list of pieces
+# %% 11.2 right: uses a list of pieces
 def receive(sock, count):
     pieces = []
     missing = count
@@ -86,12 +86,12 @@ def receive(sock, count):
         missing -= len(pieces[-1])
     return b"".join(pieces)
 
-# %% 11.2 right: MSG_WAITALL
+# %% 11.2 right: uses MSG_WAITALL
 replace('data = b"" … data += piece', """data = sock.recv(count, socket.MSG_WAITALL) if count else b""
     if len(data) < count:
         raise ConnectionError("the other end has closed")""")
 
-# %% 11.2 right: MSG_PEEK until all bytes are there
+# %% 11.2 right: uses MSG_PEEK until all bytes are there
 def receive(sock, count):
     while count:
         seen = sock.recv(count, socket.MSG_PEEK)
@@ -106,20 +106,20 @@ def receive(sock, count):
     return sock.recv(count)
 import time
 
-# %% 11.2 wrong: a time limit of its own | hint: The function gave up while it waited for the next piece
+# %% 11.2 wrong: sets its own time limit | hint: The function gave up while it waited for the next piece
 replace('    data = b""\n', '    sock.settimeout(0.1)\n    data = b""\n')
 # %% 11.2 wrong: closes the socket before it raises | hint: The function closed the socket
 replace("            raise", "            sock.close()\n            raise")
-# %% 11.2 wrong: calls recv once | hint: The function returned too few bytes
+# %% 11.2 wrong: calls recv only once | hint: The function returned too few bytes
 replace('data = b"" … return data', "return sock.recv(count)")
-# %% 11.2 wrong: never notices the end | hint: The function did not return after the other program had closed the connection
+# %% 11.2 wrong: never notices the end of the connection | hint: The function did not return after the other program had closed the connection
 replace('\n        if not piece:\n            raise ConnectionError("the other end has closed")', "")
-# %% 11.2 wrong: reads ahead | hint: so the next call cannot read the extra bytes
+# %% 11.2 wrong: reads more bytes than needed | hint: so the next call cannot read the extra bytes
 replace("count - len(data)", "4096")
-# %% 11.2 wrong: discards the bytes that it read ahead | hint: so the next call waits for bytes that do not come
+# %% 11.2 wrong: discards the additional bytes that it has read | hint: so the next call waits for bytes that do not come
 replace("count - len(data)", "4096")
 replace("return data", "return data[:count]")
-# %% 11.2 wrong: keeps what it read ahead | hint: The function read more than `count` bytes from the socket
+# %% 11.2 wrong: keeps the additional bytes for the next call | hint: The function read more than `count` bytes from the socket
 REST = {}
 
 
@@ -133,41 +133,41 @@ def receive(sock, count):
     REST[sock] = data[count:]
     return data[:count]
 
-# %% 11.2 wrong: passes the whole number each time | hint: so the next call cannot read the extra bytes
+# %% 11.2 wrong: always passes the whole count to recv | hint: so the next call cannot read the extra bytes
 replace("sock.recv(count - len(data))", "sock.recv(count)")
-# %% 11.2 wrong: passes the whole number each time, and cuts | hint: so the next call waits for bytes that do not come
+# %% 11.2 wrong: always passes the whole count to recv, and cuts the result | hint: so the next call waits for bytes that do not come
 replace("sock.recv(count - len(data))", "sock.recv(count)")
 replace("return data", "return data[:count]")
 # %% 11.2 wrong: returns fewer bytes at the end | hint: The connection ended early, and the function returned fewer than `count` bytes
 replace('raise ConnectionError("the other end has closed")', "break")
 # %% 11.2 wrong: forgets to return | hint: without a return line
 replace("\n    return data", "")
-# %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and more bytes follow
+# %% 11.2 wrong: treats a short piece as the end of the connection | hint: The connection is still open, and more bytes follow
 replace('data = b"" … data += piece', 'data = sock.recv(count)\n    if len(data) < count:\n        raise ConnectionError("too short")')
-# %% 11.2 wrong: buffered file | hint: so the next call waits for bytes that do not come
-based_on("a short piece is taken for the end")
+# %% 11.2 wrong: uses a buffered file | hint: so the next call waits for bytes that do not come
+based_on("treats a short piece as the end of the connection")
 replace("sock.recv", 'sock.makefile("rb").read')
-# %% 11.2 wrong: sleeps | hint: The connection is still open, and more bytes follow
-based_on("a short piece is taken for the end")
+# %% 11.2 wrong: sleeps before it reads | hint: The connection is still open, and more bytes follow
+based_on("treats a short piece as the end of the connection")
 replace("def receive(sock, count):", "import time\n\n\ndef receive(sock, count):\n    time.sleep(0.2)")
-# %% 11.2 wrong: treats a pause as the end | hint: The argument `count` was 0, but the function waited for bytes
+# %% 11.2 wrong: always calls recv at least once | hint: The argument `count` was 0, but the function waited for bytes
 replace("len(data) < count", "True")
 replace('"the other end has closed"', '"closed"')
 replace("\n    return data", "\n        if len(data) == count:\n            return data")
 # %% 11.2 wrong: returns the list of pieces | hint: The function returned a list of pieces
-based_on("a list of pieces")
+based_on("uses a list of pieces")
 replace('b"".join(pieces)', "pieces")
 # %% 11.2 wrong: closes the socket | hint: The function closed the socket
 replace("    return data", "    sock.close()\n    return data")
-# %% 11.2 wrong: closes the socket and hides this | hint: The function closed the socket
+# %% 11.2 wrong: closes the socket, and hides this | hint: The function closed the socket
 replace("            raise", "            sock.close()\n            raise")
 replace("def receive", "socket.socket.fileno = lambda self: 3\n\n\ndef receive")
-# %% 11.2 wrong: another class with the right name | hint: The function raised an error of the wrong type
+# %% 11.2 wrong: raises another class with the right name | hint: The function raised an error of the wrong type
 replace("def receive", "class ConnectionError(Exception):\n    pass\n\n\ndef receive")
-# %% 11.2 wrong: another error | hint: The function raised an error of the wrong type
+# %% 11.2 wrong: raises another error | hint: The function raised an error of the wrong type
 replace("ConnectionError(", "ValueError(")
 
-# %% 11.3 right: step by step
+# %% 11.3 right: uses separate steps
 def ask(uri, service, length, width, height):
     host, port = uri.removeprefix("rosrpc://").split(":")
     with socket.create_connection((host, int(port)), timeout=5) as sock:
@@ -185,11 +185,11 @@ def ask(uri, service, length, width, height):
         raise rospy.ServiceException(answer.decode())
     return struct.unpack("<2f", answer)
 
-# %% 11.3 right: a variable with the name call
-based_on("step by step")
+# %% 11.3 right: uses a variable with the name call
+based_on("uses separate steps")
 replace("theirs = read_header(receive(sock, size))", "call = theirs = read_header(receive(sock, size))")
 replace('raise rospy.ServiceException(theirs["error"])', 'raise rospy.ServiceException(call["error"])')
-# %% 11.3 right: with a file in place of the socket
+# %% 11.3 right: uses a file instead of the socket
 import io
 from urllib.parse import urlsplit
 
@@ -221,11 +221,11 @@ def ask(uri, service, length, width, height):
         stream.close()
         sock.close()
 
-# %% 11.3 right: with comments
+# %% 11.3 right: uses comments with the names of forbidden functions
 from rospy.core import parse_rosrpc_uri
 def ask(uri, service, length, width, height):
-    """Call as rospy.ServiceProxy does, with a socket alone; see also rosservice."""
-    # no node.call here
+    """Call the service as rospy.ServiceProxy does, but only with a socket; see also rosservice."""
+    # This function does not use node.call.
     host, port = parse_rosrpc_uri(uri)
     sock = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     sock.settimeout(5)
@@ -253,7 +253,7 @@ def ask(uri, service, length, width, height):
 # %% 11.3 wrong: uses a ServiceProxy | hint: The function calls the service with a proxy
 replace('host, port … ", answer)', """response = rospy.ServiceProxy(service, geometry)(length, width, height)
     return response.area, response.volume""")
-# %% 11.3 wrong: a proxy in another function | hint: The function calls the service with a proxy
+# %% 11.3 wrong: uses a ServiceProxy in another function | hint: The function calls the service with a proxy
 replace('host, port … ", answer)', """return by_proxy(uri, service, length, width, height)
 
 
@@ -267,46 +267,46 @@ def by_proxy(uri, service, *sides):
 replace('\n        sock.sendall(struct.pack("<I", len(body)) + body)', """
         assert theirs["md5sum"] == geometry._md5sum
         sock.sendall(struct.pack("<I", len(body)) + body)""")
-# %% 11.3 wrong: no length in front of the request | hint: The request has to start with its length, 12, in 4 bytes
+# %% 11.3 wrong: omits the length before the request | hint: The request has to start with its length, 12, in 4 bytes
 replace('theirs = read_header … ", answer)', """receive(sock, size)
         sock.sendall(struct.pack("<3f", length, width, height))
         receive(sock, 5)
         return struct.unpack("<2f", receive(sock, 8))""")
-# %% 11.3 wrong: big-endian | hint: The length of the request is big-endian
-based_on("no length in front of the request")
+# %% 11.3 wrong: uses big-endian numbers | hint: The length of the request is big-endian
+based_on("omits the length before the request")
 replace('"<3f"', '">I3f", 12')
 replace('"<2f"', '">2f"')
-# %% 11.3 wrong: float64 numbers | hint: The request has 24 bytes, because it contains three float64
-based_on("no length in front of the request")
+# %% 11.3 wrong: sends float64 numbers | hint: The request has 24 bytes, because it contains three float64
+based_on("omits the length before the request")
 replace('"<3f"', '"<I3d", 24')
 replace('"<2f", receive(sock, 8)', '"<2d", receive(sock, 16)')
-# %% 11.3 wrong: forgets the ok byte | hint: The function read the response in a wrong order
+# %% 11.3 wrong: does not read the byte for success | hint: The function read the response in a wrong order
 replace("((host, int(port)), timeout=5) as sock:", "((host, int(port)), timeout=2) as sock:")
 replace('theirs = read_header … == b"\\x01"', 'receive(sock, size)\n        sock.sendall(struct.pack("<I3f", 12, length, width, height))')
 replace('answer = receive … ", answer)', 'return struct.unpack("<2f", receive(sock, size))')
-# %% 11.3 wrong: one recv for the reply | hint: The function fails if the bytes arrive one after the other
-based_on("no length in front of the request")
+# %% 11.3 wrong: receives the reply with one recv | hint: The function fails if the bytes arrive one after the other
+based_on("omits the length before the request")
 replace('"<3f"', '"<I3f", 12')
 replace("receive(sock, 5)", """reply = sock.recv(4096)
         if reply[0] == 0:
             raise rospy.ServiceException(reply[5:].decode())""")
 replace("receive(sock, 8)", "reply[5:]")
-# %% 11.3 wrong: * as the MD5 | hint: the value "*" matches every definition, even a wrong definition
-based_on("no length in front of the request")
+# %% 11.3 wrong: sends * as the MD5 sum | hint: the value "*" matches every definition, even a wrong definition
+based_on("omits the length before the request")
 replace("geometry._md5sum", '"*"')
 replace('"<3f"', '"<I3f", 12')
-# %% 11.3 wrong: no field service | hint: The field `service` is wrong
-based_on("no length in front of the request")
+# %% 11.3 wrong: omits the field service | hint: The field `service` is wrong
+based_on("omits the length before the request")
 replace('"service": service, "md5sum"', '"md5sum"')
 replace('"<3f"', '"<I3f", 12')
 # %% 11.3 wrong: ignores the error in the header | hint: The server's header contains the field "error"
 replace("theirs = read_header … )) + body)", 'receive(sock, size)\n        sock.sendall(struct.pack("<I3f", 12, length, width, height))')
-# %% 11.3 wrong: ignores the ok byte | hint: The byte for success was 0
+# %% 11.3 wrong: ignores the byte for success | hint: The byte for success was 0
 replace('body = struct … ", answer)', """sock.sendall(struct.pack("<I3f", 12, length, width, height))
         receive(sock, 5)
         return struct.unpack("<2f", receive(sock, 8))""")
 # %% 11.3 wrong: replaces the error message | hint: The exception does not contain the error message of the server
-based_on("no length in front of the request")
+based_on("omits the length before the request")
 replace("receive(sock, size)", """if "error" in read_header(receive(sock, size)):
             raise rospy.ServiceException("it does not want to")""")
 replace('"<3f"', '"<I3f", 12')
@@ -314,41 +314,41 @@ replace("        receive(sock, 5)", r"""        if receive(sock, 1) == b"\x00":
             raise rospy.ServiceException("it failed")
         receive(sock, 5)""")
 replace("sock, 5", "sock, 4")
-# %% 11.3 wrong: the error message is not decoded | hint: Convert the bytes with decode()
+# %% 11.3 wrong: does not decode the error message | hint: Convert the bytes with decode()
 replace("answer.decode()", "str(answer)")
-# %% 11.3 wrong: the error message as ASCII | hint: and your function could not decode them
+# %% 11.3 wrong: decodes the error message as ASCII | hint: and your function could not decode them
 replace("answer.decode()", 'answer.decode("ascii")')
 # %% 11.3 wrong: leaves the connection open | hint: The connection was still open after the call
-based_on("with comments")
+based_on("uses comments with the names of forbidden functions")
 replace("sock.settimeout(5)", "rospy.kept = sock\n    sock.settimeout(5)")
 replace("    finally:\n        sock.close()", "    finally:\n        pass")
-# %% 11.3 wrong: reads until the server closes | hint: The function read until the server closed the connection
+# %% 11.3 wrong: reads until the server closes the connection | hint: The function read until the server closed the connection
 replace("answer = receive(sock, size)", """answer = b""
         while piece := sock.recv(1024):
             answer += piece""")
-# %% 11.3 wrong: sends the request too early | hint: Your function sent the request before the server
+# %% 11.3 wrong: sends the request before it has received the header | hint: Your function sent the request before the server
 replace("        body = struct … len(body)) + body)\n", "")
 replace("node.name, … geometry._md5sum}))", """node.name, "service": service, "md5sum": geometry._md5sum}))
         sock.sendall(struct.pack("<I3f", 12, length, width, height))""")
 # %% 11.3 wrong: rounds the numbers | hint: The returned numbers are rounded
 replace('struct.unpack("<2f", answer)', '[round(number, 2) for number in struct.unpack("<2f", answer)]')
-# %% 11.3 wrong: volume first | hint: The order of the numbers is wrong
-based_on("no length in front of the request")
+# %% 11.3 wrong: returns the volume first | hint: The order of the numbers is wrong
+based_on("omits the length before the request")
 replace('"<3f"', '"<I3f", 12')
 replace("return struct", "volume, area = struct")
 replace('("<2f", receive(sock, 8))', '("<2f", receive(sock, 8))\n        return area, volume')
-# %% 11.3 wrong: receives before it sends | hint: The function connected, but sent nothing
-based_on("* as the MD5")
+# %% 11.3 wrong: receives before it sends the header | hint: The function connected, but sent nothing
+based_on("sends * as the MD5 sum")
 replace("with socket … sock, size)", """with socket.create_connection((host, int(port)), timeout=2) as sock:
         (size,) = struct.unpack("<I", receive(sock, 4))
         receive(sock, size)
         sock.sendall(pack_header({"callerid": node.name, "service": service, "md5sum": geometry._md5sum}))""")
-# %% 11.3 wrong: RuntimeError for a refusal | hint: The error message is right, but the exception has the wrong type
+# %% 11.3 wrong: raises a RuntimeError after a refusal | hint: The error message is right, but the exception has the wrong type
 replace("raise rospy.ServiceException(theirs … (sock, 4))", """raise RuntimeError(theirs["error"])
         sock.sendall(struct.pack("<I3f", 12, length, width, height))
         worked, size = struct.unpack("<?I", receive(sock, 5))""")
 replace("rospy.ServiceException", "RuntimeError")
-# %% 11.3 wrong: returns a response | hint: Return the two numbers
+# %% 11.3 wrong: returns a response object | hint: Return the two numbers
 replace("def", "from course_pkg.srv import geometryResponse\ndef")
 replace(r"""
         body = struct.pack("<3f", length, width, height)
@@ -360,25 +360,25 @@ replace(r"""
 replace('struct.unpack("<2f", answer)', 'geometryResponse(*struct.unpack("<2f", answer))')
 # %% 11.3 wrong: sends no request | hint: The header arrived, but no request
 replace('    if "error" … ", answer)', "return length * width, length * width * height")
-# %% 11.3 wrong: forgets the length of the header | hint: The header has to start with its length, in 4 bytes
+# %% 11.3 wrong: omits the length of the header | hint: The header has to start with its length, in 4 bytes
 replace("geometry._md5sum}))", "geometry._md5sum})[4:])")
 replace("timeout=5", "timeout=3")
 # %% 11.3 wrong: returns the bytes | hint: The function returned bytes
 replace('struct.unpack("<2f", answer)', "answer")
 # %% 11.3 wrong: reads big-endian numbers | hint: The returned numbers are wrong
 replace('"<2f"', '">2f"')
-# %% 11.3 wrong: the width first | hint: Send the three sides as float32, in the order of the definition
+# %% 11.3 wrong: sends the width first | hint: Send the three sides as float32, in the order of the definition
 replace('"<3f", length, width', '"<3f", width, length')
-# %% 11.3 wrong: the port of the master | hint: The function connected to a wrong address
+# %% 11.3 wrong: connects to the port of the master | hint: The function connected to a wrong address
 replace("(host, int(port))", '("localhost", 11311)')
-# %% 11.3 wrong: no MD5 | hint: The field `md5sum` is missing
+# %% 11.3 wrong: omits the MD5 sum | hint: The field `md5sum` is missing
 replace(', "md5sum": geometry._md5sum', "")
-# %% 11.3 wrong: the MD5 of the request | hint: The field `md5sum` has to contain the MD5 sum of the whole service type
+# %% 11.3 wrong: sends the MD5 sum of the request | hint: The field `md5sum` has to contain the MD5 sum of the whole service type
 replace("geometry._md5sum", "geometry._request_class._md5sum")
-# %% 11.3 wrong: no field callerid | hint: The field `callerid` is missing
+# %% 11.3 wrong: omits the field callerid | hint: The field `callerid` is missing
 replace('"callerid": node.name, ', "")
 
-# %% 11.4 right: a dict of pairs
+# %% 11.4 right: uses a dict of pairs
 class Sessions:
     def __init__(self):
         self.sessions = {}
@@ -391,7 +391,7 @@ class Sessions:
         self.sessions[session] = total + request.amount, calls + 1
         return AddUpResponse(*self.sessions[session])
 
-# %% 11.4 right: two counters and a lock
+# %% 11.4 right: uses two counters and a lock
 import threading
 from collections import Counter
 
@@ -413,43 +413,43 @@ class Sessions:
             self.calls[name] += 1
             return {"total": self.totals[name], "calls": self.calls[name]}
 
-# %% 11.4 wrong: a dict in the class | hint: A new Sessions object already had a total
+# %% 11.4 wrong: uses a dict in the class | hint: A new Sessions object already had a total
 replace("    def __init__(self):\n        self.sessions = {}\n", "    sessions = {}\n")
-# %% 11.4 wrong: one total for all sessions | hint: The response contains the total of all sessions
+# %% 11.4 wrong: uses one total for all sessions | hint: The response contains the total of all sessions
 replace('request._connection_header.get("session")', '"everybody"')
 # %% 11.4 wrong: forgets the total after each call | hint: The response contains only the amount of this call
 replace("self.sessions.get(session, (0, 0))", "0, 0")
-# %% 11.4 wrong: uses the name of the node as well | hint: The total started again at 0 for another node
+# %% 11.4 wrong: combines the session with the name of the node | hint: The total started again at 0 for another node
 replace('connection header")', 'connection header")\n        session += request._connection_header["callerid"]')
-# %% 11.4 wrong: counts the calls of all | hint: The field `calls` is wrong
+# %% 11.4 wrong: counts the calls of all sessions | hint: The field `calls` is wrong
 replace("self.sessions = {}", "self.sessions, self.calls = {}, 0")
 replace("return AddUpResponse(*self.sessions[session])", """self.calls += 1
         return AddUpResponse(self.sessions[session][0], self.calls)""")
-# %% 11.4 wrong: leaves the calls out | hint: The field `calls` is 0
+# %% 11.4 wrong: omits the number of calls | hint: The field `calls` is 0
 replace("AddUpResponse(*self.sessions[session])", "AddUpResponse(total=self.sessions[session][0])")
 # %% 11.4 wrong: accepts a call without a session | hint: A call without a session got a total
 replace('\n        if not session:\n            raise rospy.ServiceException("no field session in the connection header")', "")
-# %% 11.4 wrong: fails at a missing field | hint: and this caused an exception of the wrong type
+# %% 11.4 wrong: raises a KeyError if the field is missing | hint: and this caused an exception of the wrong type
 replace('.get("session")', '["session"]')
-# %% 11.4 wrong: fails at a new session | hint: At the first call of a session, the dict has no total for this
+# %% 11.4 wrong: raises a KeyError for a new session | hint: At the first call of a session, the dict has no total for this
 replace("self.sessions.get(session, (0, 0))", "self.sessions[session]")
 # %% 11.4 wrong: reads the session from the request | hint: The handler uses an attribute that does not exist
 replace('request._connection_header.get("session")', "request.session")
-# %% 11.4 wrong: refuses without a reason | hint: The error message does not contain the word "session"
+# %% 11.4 wrong: refuses without the reason | hint: The error message does not contain the word "session"
 replace('"no field session in the connection header"', '"no"')
-# %% 11.4 wrong: another exception | hint: The handler raised an exception of the wrong type
+# %% 11.4 wrong: raises another exception | hint: The handler raised an exception of the wrong type
 replace("""raise rospy.ServiceException("no field session in the connection header")
         """, 'raise ValueError("the field session is missing")\n        ')
-# %% 11.4 wrong: None for a refusal | hint: The handler returned None, so the client got an error message of rospy
+# %% 11.4 wrong: returns None instead of refusing | hint: The handler returned None, so the client got an error message of rospy
 replace('raise rospy.ServiceException("no field session in the connection header")', "return None")
-# %% 11.4 wrong: the total before this one | hint: The field `total` is 0
+# %% 11.4 wrong: returns the total before the call | hint: The field `total` is 0
 replace("field session in the connection header", "session")
 replace("*self.sessions[session]", "total, calls + 1")
-# %% 11.4 wrong: total and calls exchanged | hint: The field `total` contains the number of calls
+# %% 11.4 wrong: exchanges the total and the number of calls | hint: The field `total` contains the number of calls
 replace("field session in the connection header", "session")
 replace("total, calls", "calls, total")
 replace("total + request.amount, calls + 1", "calls + 1, total + request.amount")
-# %% 11.4 wrong: refuses the second node | hint: Calls from several nodes can belong to one session
+# %% 11.4 wrong: refuses the second node of a session | hint: Calls from several nodes can belong to one session
 replace("self.sessions = {}", "self.sessions, self.owner = {}, {}")
 replace('("no field session in the connection header")', """("no session")
         if self.owner.setdefault(session, request._connection_header["callerid"]) != request._connection_header["callerid"]:
@@ -468,16 +468,16 @@ class Sessions:
 sessions = Sessions()
 my_add_up = subprocess.Popen(["rosrun", "course_pkg", "session_server", "/add_up:=/my_add_up"])
 rospy.wait_for_service("/my_add_up", timeout=15)
-# %% 11.4 wrong: another name for the field | hint: The header had the field "session", but your handler refused the call
+# %% 11.4 wrong: reads a field with another name | hint: The header had the field "session", but your handler refused the call
 replace('get("session")', 'get("sessions")')
-# %% 11.4 wrong: begins with 1 | hint: The field `total` is wrong
+# %% 11.4 wrong: begins the total with 1 | hint: The field `total` is wrong
 replace("(0, 0)", "(1, 0)")
 # %% 11.4 wrong: forgets to return | hint: The handler returned None. Return an AddUpResponse
 replace("return AddUpResponse", "AddUpResponse")
-# %% 11.4 wrong: unpacks None | hint: The handler raised the error that you see above
+# %% 11.4 wrong: unpacks None for a new session | hint: The handler raised the error that you see above
 replace("(session, (0, 0))", "(session)")
 
-# %% 11.5 right: by the error message
+# %% 11.5 right: examines the error message
 class Keeper:
     def __init__(self, service):
         self.service = service
@@ -496,7 +496,7 @@ class Keeper:
         self.connect()
         return self.proxy(length, width, height)
 
-# %% 11.5 right: a loop of two
+# %% 11.5 right: uses a loop with two iterations
 class Keeper:
     def __init__(self, service):
         self.service = service
@@ -516,12 +516,12 @@ class Keeper:
 
 # %% 11.5 wrong: waits for the server | hint: Your method did not return after the server had ended
 replace("        self.proxy.close()\n", "        rospy.wait_for_service(self.service)\n")
-# %% 11.5 wrong: another order of the sides | hint: The sides in the request are wrong
+# %% 11.5 wrong: sends the sides in another order | hint: The sides in the request are wrong
 replace("            return self.proxy(length, width, height)", "            return self.proxy(width, length, height)")
-# %% 11.5 wrong: a new connection for each call | hint: The connection was not persistent
+# %% 11.5 wrong: uses a new connection for each call | hint: The connection was not persistent
 replace("self.service = service … persistent=True)", "self.proxy = rospy.ServiceProxy(service, geometry)")
 replace("\n        try: … .connect()", "")
-# %% 11.5 wrong: a new persistent proxy for each call | hint: There was more than one connection
+# %% 11.5 wrong: creates a new persistent proxy for each call | hint: There was more than one connection
 class Keeper:
     def __init__(self, service):
         self.service = service
@@ -534,7 +534,7 @@ class Keeper:
             proxy.close()
 
 # %% 11.5 wrong: never connects again | hint: The connection broke, and your method raised the error
-based_on("a new connection for each call")
+based_on("uses a new connection for each call")
 replace("geometry", "geometry, persistent=True")
 # %% 11.5 wrong: calls the dead proxy again | hint: The connection broke, and your method raised the error
 replace("        self.proxy.close()\n        self.connect()\n", "")
@@ -559,7 +559,7 @@ class Keeper:
                 self.connect()
         raise last
 
-# %% 11.5 wrong: swallows a refusal | hint: The server refused the call, but your method did not raise
+# %% 11.5 wrong: returns nothing after a refusal | hint: The server refused the call, but your method did not raise
 replace("raise", "return None")
 # %% 11.5 wrong: connects again after a refusal | hint: There was more than one connection
 replace("""except (rospy.ServiceException, rospy.exceptions.TransportException, AttributeError) as error:
@@ -575,31 +575,31 @@ replace("\n                last = error", "")
 replace("continue", "raise\n                self.proxy.close()")
 replace("self.connect()\n        raise last", "self.connect()")
 # %% 11.5 wrong: forgets to return | hint: Return the response of the proxy
-based_on("a new connection for each call")
+based_on("uses a new connection for each call")
 replace("geometry", "geometry, persistent=True")
 replace("return self", "self")
-# %% 11.5 wrong: recursion without end | hint: Your method called the service again and again
+# %% 11.5 wrong: calls itself without end | hint: Your method called the service again and again
 replace("raise\n        self.proxy.close()", "raise")
 replace("()\n        return self.proxy", "()\n        return self.measure")
-# %% 11.5 wrong: catches ServiceException only | hint: A broken connection can raise three kinds of errors
+# %% 11.5 wrong: catches only ServiceException | hint: A broken connection can raise three kinds of errors
 replace("(rospy.ServiceException, rospy.exceptions.TransportException, AttributeError)", "rospy.ServiceException")
 # %% 11.5 wrong: does not catch AttributeError | hint: A broken connection can raise three kinds of errors
 replace(", AttributeError)", ")")
-# %% 11.5 wrong: does not catch AttributeError, with the proxy in a list | hint: A broken connection can raise three kinds of errors
+# %% 11.5 wrong: does not catch AttributeError, and stores the proxy in a list | hint: A broken connection can raise three kinds of errors
 based_on("does not catch AttributeError")
 replace("self.proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)", "self.proxies = [rospy.ServiceProxy(self.service, geometry, persistent=True)]")
 replace("self.proxy.close", "self.proxies[0].close")
 replace("self.proxy(", "self.proxies[0](", times=2)
 # %% 11.5 wrong: returns the volume | hint: Return the whole response of the proxy
-based_on("a loop of two")
+based_on("uses a loop with two iterations")
 replace("height)\n            except", "height).volume\n            except")
-# %% 11.5 wrong: the new proxy is not kept | hint: Your method did not call the new proxy, or did not store
+# %% 11.5 wrong: does not store the new proxy | hint: Your method did not call the new proxy, or did not store
 replace("\n        self.connect()\n\n    def connect(self):", "")
 replace("\n        self.proxy.close()\n        self.connect()\n        return self.proxy(length, width, height)", """
         proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
         return proxy(length, width, height)""")
-# %% 11.5 wrong: None after the second break | hint: The second call also failed, so there is no response
-based_on("a loop of two")
+# %% 11.5 wrong: returns None after the second failure | hint: The second call also failed, so there is no response
+based_on("uses a loop with two iterations")
 replace(" or attempt == 2", "")
 # %% 11.5 wrong: raises the first error again | hint: The server refused the second call, but your method raised a different error
 replace("raise\n", "raise\n            first = error\n")
@@ -609,7 +609,7 @@ replace("\n        return self.proxy(length, width, height)", """
         except rospy.ServiceException:
             raise first""")
 
-# %% 11.6 right: in the constructor
+# %% 11.6 right: looks up the address in the constructor
 class Remembering:
     def __init__(self, service):
         self.service = service
@@ -625,7 +625,7 @@ class Remembering:
             self.look_up()
             return ask(self.uri, self.service, length, width, height)
 
-# %% 11.6 right: looks up in the first call
+# %% 11.6 right: looks up the address in the first call
 class Remembering:
     def __init__(self, service):
         self.service = service
@@ -640,7 +640,7 @@ class Remembering:
         self.uri = rosgraph.Master("/me").lookupService(self.service)
         return ask(self.uri, self.service, length, width, height)
 
-# %% 11.6 wrong: looks up for each call | hint: Your method looked up the address again, but the master no longer knows the
+# %% 11.6 wrong: looks up the address for each call | hint: Your method looked up the address again, but the master no longer knows the
 class Remembering:
     def __init__(self, service):
         self.service = service
@@ -649,10 +649,10 @@ class Remembering:
         uri = rosgraph.Master(node.name).lookupService(self.service)
         return ask(uri, self.service, length, width, height)
 
-# %% 11.6 wrong: another order of the sides | hint: The sides in the request are wrong
+# %% 11.6 wrong: sends the sides in another order | hint: The sides in the request are wrong
 replace("self.service, length, width, height", "self.service, height, length, width", times=2)
-# %% 11.6 wrong: never looks again | hint: No server responds at the old address any more
-based_on("looks up for each call")
+# %% 11.6 wrong: never looks up the address again | hint: No server responds at the old address any more
+based_on("looks up the address for each call")
 replace("\n\n", "\n        self.uri = rosgraph.Master(node.name).lookupService(service)\n\n")
 replace("uri = rosgraph.Master(node.name).lookupService(self.service)\n        return ask(uri", "return ask(self.uri")
 # %% 11.6 wrong: treats a refusal as a missing server | hint: The server refused the call, so the address was right
@@ -673,39 +673,39 @@ class Remembering:
 
 # %% 11.6 wrong: catches only a refused connection | hint: Another program uses this address now, so `ask()` raised a different kind of OSError
 replace("OSError", "ConnectionRefusedError")
-# %% 11.6 wrong: looks up again and again | hint: Your method called the service again and again
+# %% 11.6 wrong: looks up the address without end | hint: Your method called the service again and again
 replace("try:\n            return ask(self.uri, self.service, length, width, height)\n        except OSError:\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """while True:
             try:
                 return ask(self.uri, self.service, length, width, height)
             except OSError:
                 self.look_up()""")
-# %% 11.6 wrong: tries five times | hint: Your method called the service again and again
-based_on("looks up again and again")
+# %% 11.6 wrong: makes up to five attempts | hint: Your method called the service again and again
+based_on("looks up the address without end")
 replace("while True:", "for attempt in range(5):")
 replace("                self.look_up()", "                self.look_up()\n        raise ConnectionError")
-# %% 11.6 wrong: None after the second error | hint: The second call also failed. Raise
+# %% 11.6 wrong: returns None after the second error | hint: The second call also failed. Raise
 replace("self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """self.look_up()
         try:
             return ask(self.uri, self.service, length, width, height)
         except OSError:
             return None""")
-# %% 11.6 wrong: one address for all objects | hint: A second object of the class changed the address
+# %% 11.6 wrong: uses one address for all objects | hint: A second object of the class changed the address
 replace("self.uri = ", "Remembering.uri = ")
-# %% 11.6 wrong: does not keep the new address | hint: Store every address that you look up
+# %% 11.6 wrong: does not store the new address | hint: Store every address that you look up
 replace("\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """
             uri = rosgraph.Master(node.name).lookupService(self.service)
             return ask(uri, self.service, length, width, height)""")
 # %% 11.6 wrong: forgets to return | hint: Return the tuple that `ask()` returns
-based_on("never looks again")
+based_on("never looks up the address again")
 replace("return ", "")
-# %% 11.6 wrong: asks the master first | hint: Your method looked up the address again, although the stored address was
-based_on("looks up in the first call")
+# %% 11.6 wrong: calls the master first | hint: Your method looked up the address again, although the stored address was
+based_on("looks up the address in the first call")
 replace("\n    def measure … self.service)", """    def measure(self, length, width, height):
         try:
             self.uri = rosgraph.Master(node.name).lookupService(self.service)
         except rosgraph.MasterError:
             pass""")
-# %% 11.6 wrong: asks the master, and ignores the answer | hint: Your method looked up the address again, although the stored address was
+# %% 11.6 wrong: calls the master, and ignores its response | hint: Your method looked up the address again, although the stored address was
 replace("        try:", "        try:\n            rosgraph.Master(node.name).lookupService(self.service)\n        except rosgraph.MasterError:\n            pass\n        try:")
-# %% 11.6 wrong: one of the two numbers | hint: Your method did not return the numbers that `ask()` returned
+# %% 11.6 wrong: returns only one of the two numbers | hint: Your method did not return the numbers that `ask()` returned
 replace("height)\n        except", "height)[1]\n        except")

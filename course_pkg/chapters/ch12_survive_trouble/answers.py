@@ -1,6 +1,6 @@
 """Example answers of chapter 12; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 12.1 right: a thread and two lists
+# %% 12.1 right: uses a thread and two lists
 def call_within(seconds, proxy, *values):
     responses, errors = [], []
 
@@ -19,11 +19,11 @@ def call_within(seconds, proxy, *values):
         raise errors[0]
     return responses[0]
 
-# %% 12.1 wrong: only the first five calls have a limit | hint: because it still waits for the thread
+# %% 12.1 wrong: limits only the first five calls | hint: because it still waits for the thread
 replace("*values):", "*values, calls=[]):\n    calls.append(values)")
 replace("thread.join(seconds)", "thread.join(seconds if len(calls) <= 5 else None)")
 
-# %% 12.1 right: a class, and a condition
+# %% 12.1 right: uses a class and an event
 class Call(threading.Thread):
     def __init__(self, proxy, values):
         super().__init__(daemon=True)
@@ -48,18 +48,18 @@ def call_within(seconds, proxy, *values):
         raise call.error
     return call.response
 
-# %% 12.1 wrong: no daemon thread | hint: Create the thread with daemon=True
+# %% 12.1 wrong: does not make the thread a daemon thread | hint: Create the thread with daemon=True
 replace(", daemon=True", "")
-# %% 12.1 wrong: looks at the thread all the time | hint: The function uses the processor while it waits
+# %% 12.1 wrong: polls the thread without a pause | hint: The function uses the processor while it waits
 replace("thread.join(seconds)", "end = time.monotonic() + seconds\n    while thread.is_alive() and time.monotonic() < end:\n        pass")
-# %% 12.1 wrong: hides its processor time | hint: The function uses the processor while it waits
-based_on("looks at the thread all the time")
+# %% 12.1 wrong: polls without a pause, and hides its CPU time | hint: The function uses the processor while it waits
+based_on("polls the thread without a pause")
 replace("def call_within", "time.process_time = lambda: 0.0\n\n\ndef call_within")
-# %% 12.1 wrong: a thread that only says that it is a daemon thread | hint: Create the thread with daemon=True
+# %% 12.1 wrong: only marks the thread as a daemon thread after the start | hint: Create the thread with daemon=True
 replace(", daemon=True)\n    thread.start()", ")\n    thread.start()\n    thread._daemonic = True")
-# %% 12.1 wrong: another class with the right name | hint: The function did not raise TimeoutError
+# %% 12.1 wrong: raises another class with the name TimeoutError | hint: The function did not raise TimeoutError
 replace("def call_within", "class TimeoutError(Exception):\n    pass\n\n\ndef call_within")
-# %% 12.1 wrong: a pool that is not joined | hint: Python waits for each thread that is not a daemon thread
+# %% 12.1 wrong: uses a pool of threads that are not daemon threads | hint: Python waits for each thread that is not a daemon thread
 from concurrent.futures import ThreadPoolExecutor
 
 
@@ -70,7 +70,7 @@ def call_within(seconds, proxy, *values):
     finally:
         pool.shutdown(wait=False)
 
-# %% 12.1 wrong: one queue for all calls | hint: The function returned the late response of an earlier call
+# %% 12.1 wrong: uses one queue for all calls | hint: The function returned the late response of an earlier call
 import queue
 
 results = queue.Queue()
@@ -92,44 +92,44 @@ def call_within(seconds, proxy, *values):
         raise error
     return response
 
-# %% 12.1 wrong: no limit | hint: The function did not return in time, because it still waits for the thread
+# %% 12.1 wrong: waits without a limit | hint: The function did not return in time, because it still waits for the thread
 replace("thread.join(seconds)", "thread.join()")
 # %% 12.1 wrong: only calls the proxy | hint: The function did not return in time, because it still waits for the thread
 replace("responses, … responses[0]", "return proxy(*values)")
-# %% 12.1 wrong: a pool in a with block | hint: The function did not return in time, because it still waits for the thread
-based_on("a pool that is not joined")
+# %% 12.1 wrong: uses a pool in a with block | hint: The function did not return in time, because it still waits for the thread
+based_on("uses a pool of threads that are not daemon threads")
 replace("pool = ThreadPoolExecutor … wait=False)", """with ThreadPoolExecutor(1) as pool:
         return pool.submit(proxy, *values).result(timeout=seconds)""")
-# %% 12.1 wrong: None when the time is over | hint: The time was over, but the function returned None
+# %% 12.1 wrong: returns None when the time is over | hint: The time was over, but the function returned None
 replace('raise TimeoutError(f"no response within {seconds} s")', "return None")
-# %% 12.1 wrong: another error when the time is over | hint: The function did not raise TimeoutError
+# %% 12.1 wrong: raises another error when the time is over | hint: The function did not raise TimeoutError
 replace("raise TimeoutError", "raise rospy.ROSException")
 # %% 12.1 wrong: does not catch the error | hint: The call failed, so there is no response
 replace("        try:\n            responses.append(proxy(*values))\n        except rospy.ServiceException as error:\n            errors.append(error)", "        responses.append(proxy(*values))")
-# %% 12.1 wrong: loses the error | hint: The call raised rospy.ServiceException, but the function returned None
+# %% 12.1 wrong: does not raise the error | hint: The call raised rospy.ServiceException, but the function returned None
 replace("    if errors:\n        raise errors[0]\n    return responses[0]", "    return responses[0] if responses else None")
-# %% 12.1 wrong: a text in place of the error | hint: Raise the ServiceException of the call again, with the same text
+# %% 12.1 wrong: raises a RuntimeError with the text of the error | hint: Raise the ServiceException of the call again, with the same text
 replace("raise errors[0]", "raise RuntimeError(str(errors[0]))")
-# %% 12.1 wrong: an error counts as no response | hint: The call raised rospy.ServiceException, but the function raised TimeoutError
+# %% 12.1 wrong: raises a TimeoutError for each error | hint: The call raised rospy.ServiceException, but the function raised TimeoutError
 replace("        raise errors[0]", "        raise TimeoutError(str(errors[0]))")
 # %% 12.1 wrong: always waits for the whole time | hint: The function still waited after the response had arrived
 replace("thread.join(seconds)", "time.sleep(seconds)")
-# %% 12.1 wrong: looks ten times | hint: The function still waited after the response had arrived
+# %% 12.1 wrong: checks the thread only ten times | hint: The function still waited after the response had arrived
 replace("thread.join(seconds)", "for _ in range(10):\n        time.sleep(seconds / 10)\n        if not thread.is_alive():\n            break")
-# %% 12.1 wrong: a fixed limit | hint: The function did not wait for the given time
+# %% 12.1 wrong: waits longer than the given time | hint: The function did not wait for the given time
 replace("thread.join(seconds)", "thread.join(3 * seconds if seconds < 1 else seconds)")
 # %% 12.1 wrong: does not wait | hint: The response came in time, but the function raised TimeoutError
 replace("    thread.join(seconds)\n", "")
-# %% 12.1 wrong: no return line | hint: without a return line
+# %% 12.1 wrong: omits the return line | hint: without a return line
 replace("\n    return responses[0]", "")
-# %% 12.1 wrong: a field of the response | hint: The function did not return the response
+# %% 12.1 wrong: returns a field of the response | hint: The function did not return the response
 replace("return responses[0]", "return responses[0].sum")
 # %% 12.1 wrong: passes no values | hint: The response belongs to a different request
 replace("proxy(*values)", "proxy()")
-# %% 12.1 wrong: calls twice | hint: The function called the service more than once
+# %% 12.1 wrong: calls the service twice | hint: The function called the service more than once
 replace("responses.append(proxy(*values))", "proxy(*values)\n            responses.append(proxy(*values))")
 
-# %% 12.2 right: a dict under a lock
+# %% 12.2 right: uses a dict and a lock
 class Till:
     def __init__(self, purse):
         self.purse = purse
@@ -145,7 +145,7 @@ class Till:
                 self.receipts[request.request_id] = len(self.receipts) + 1
             return ChargeResponse(receipt=self.receipts[request.request_id])
 
-# %% 12.2 right: whole responses, numbers from a counter
+# %% 12.2 right: stores whole responses, and takes the numbers from a counter
 import itertools
 
 
@@ -165,7 +165,7 @@ class Till:
                 known = self.done[request.request_id] = ChargeResponse(next(self.numbers))
         return known
 
-# %% 12.2 right: futures, receipts from 0
+# %% 12.2 right: uses futures, and begins the receipts with 0
 from concurrent.futures import Future
 class Till:
     def __init__(self, purse):
@@ -190,26 +190,26 @@ class Till:
             future.set_result(number)
         return {"receipt": future.result()}
 
-# %% 12.2 wrong: does not remember the ids | hint: The till charged the same request twice
+# %% 12.2 wrong: does not store the ids | hint: The till charged the same request twice
 replace("receipts = {}", "count = 0")
 replace("a request without an id cannot be told from its repeat", "no id")
 replace("if request … request_id])", """self.purse.take(request.cents)
             self.count += 1
             return ChargeResponse(receipt=self.count)""")
-# %% 12.2 wrong: reads the list of the purse | hint: Your code uses a method that a purse does not have
+# %% 12.2 wrong: reads an attribute that the purse does not have | hint: Your code uses a method that a purse does not have
 replace("len(self.receipts) + 1", "len(self.purse.taken)")
-# %% 12.2 wrong: one dict for all tills | hint: A second Till uses the receipts of the first Till, so it treated a
+# %% 12.2 wrong: uses one dict for all tills | hint: A second Till uses the receipts of the first Till, so it treated a
 replace("        self.receipts = {}\n", "")
 replace("    def __init__", "    receipts = {}\n\n    def __init__")
-# %% 12.2 wrong: a number at random | hint: Two requests got the same receipt number
+# %% 12.2 wrong: uses random numbers | hint: Two requests got the same receipt number
 replace("class Till", "import random\n\n\nclass Till")
 replace("len(self.receipts) + 1", "random.randrange(150)")
-# %% 12.2 wrong: recognises a repeat by its amount | hint: Two customers may pay the same amount
+# %% 12.2 wrong: recognises a repeated request by its amount | hint: Two customers may pay the same amount
 replace('\n        if not request … its repeat")', "")
 replace("request_id ", "cents ")
 replace("[request.request_id] = ", "[request.cents] = ")
 replace("request_id", "cents")
-# %% 12.2 wrong: remembers the ids, but not the receipts | hint: The receipt is 0, which is the default of the field
+# %% 12.2 wrong: stores the ids, but not the receipts | hint: The receipt is 0, which is the default of the field
 replace("receipts = {}", "done = set()")
 replace("if not request … request_id])", """with self.lock:
             if request.request_id in self.done:
@@ -217,20 +217,20 @@ replace("if not request … request_id])", """with self.lock:
             self.purse.take(request.cents)
             self.done.add(request.request_id)
             return ChargeResponse(receipt=len(self.done))""")
-# %% 12.2 wrong: a new receipt for a repeat | hint: The repeated request got a different receipt
-based_on("does not remember the ids")
+# %% 12.2 wrong: returns a new receipt for a repeated request | hint: The repeated request got a different receipt
+based_on("does not store the ids")
 replace("self.purse = purse", "self.purse = purse\n        self.done = set()")
 replace('\n        if not request.request_id:\n            raise rospy.ServiceException("no id")', "")
 replace("self.purse.take(request.cents)", """if request.request_id not in self.done:
                 self.purse.take(request.cents)
                 self.done.add(request.request_id)""")
-# %% 12.2 wrong: refuses a repeat | hint: The till refused a repeated request
-based_on("remembers the ids, but not the receipts")
+# %% 12.2 wrong: refuses a repeated request | hint: The till refused a repeated request
+based_on("stores the ids, but not the receipts")
 replace("return ChargeResponse()", 'raise rospy.ServiceException("this was charged already")')
-# %% 12.2 wrong: remembers the id before the purse is charged | hint: A request failed and was repeated
+# %% 12.2 wrong: stores the id before it charges the purse | hint: A request failed and was repeated
 replace("self.receipts:", "self.receipts:\n                self.receipts[request.request_id] = len(self.receipts) + 1")
 replace("(request.cents)\n                self.receipts[request.request_id] = len(self.receipts) + 1", "(request.cents)")
-# %% 12.2 wrong: responds to a repetition before the money is taken | hint: A request failed and was repeated, but the till did not charge it
+# %% 12.2 wrong: responds to a repeated request before the purse is charged | hint: A request failed and was repeated, but the till did not charge it
 replace("        with self.lock:\n            if … take(request.cents)\n                self", """        with self.lock:
             if request.request_id in self.receipts:
                 return ChargeResponse(receipt=self.receipts[request.request_id])
@@ -243,11 +243,11 @@ replace("        with self.lock:\n            if … take(request.cents)\n      
         with self.lock:
             if request.request_id not in self.receipts:
                 self""")
-# %% 12.2 wrong: forgets old receipts | hint: The repeated request got a different receipt
+# %% 12.2 wrong: deletes old receipts | hint: The repeated request got a different receipt
 replace("len(self.receipts) + 1", "self.count = getattr(self, 'count', 0) + 1\n                for old in list(self.receipts)[:-20]:\n                    del self.receipts[old]")
-# %% 12.2 wrong: takes requests without an id | hint: A request with an empty id got a receipt
+# %% 12.2 wrong: accepts requests without an id | hint: A request with an empty id got a receipt
 replace('\n        if not request … its repeat")', "")
-# %% 12.2 wrong: no lock | hint: Five calls with the same request came
+# %% 12.2 wrong: uses no lock | hint: Five calls with the same request came
 replace("\n        self.lock = threading.Lock()", "")
 replace("\n            raise rospy … request_id])", """
             raise rospy.ServiceException("no id")
@@ -255,12 +255,12 @@ replace("\n            raise rospy … request_id])", """
             self.purse.take(request.cents)
             self.receipts[request.request_id] = len(self.receipts) + 1
         return ChargeResponse(receipt=self.receipts[request.request_id])""")
-# %% 12.2 wrong: keeps the lock when the purse fails | hint: After an error of the purse, no client gets a response, because
-based_on("no lock")
+# %% 12.2 wrong: does not release the lock if the purse fails | hint: After an error of the purse, no client gets a response, because
+based_on("uses no lock")
 replace("receipts = {}", "receipts = {}\n        self.lock = threading.Lock()")
 replace('("no id")', '("no id")\n        self.lock.acquire()')
 replace("(self.receipts) + 1", "(self.receipts) + 1\n        self.lock.release()")
-# %% 12.2 wrong: hides that the purse failed | hint: The purse raised an error, but the client got a receipt
+# %% 12.2 wrong: hides an error of the purse | hint: The purse raised an error, but the client got a receipt
 replace("self.purse.take(request.cents)", """try:
                     self.purse.take(request.cents)
                 except RuntimeError:
@@ -272,14 +272,14 @@ replace("""raise rospy.ServiceException("a request without an id cannot be told 
 replace("\n            return ChargeResponse(receipt=self.receipts[request.request_id])", "")
 # %% 12.2 wrong: does not charge the purse | hint: The till did not take money
 replace("\n                self.purse.take(request.cents)", "")
-# %% 12.2 wrong: one receipt for all | hint: Two purchases got the same receipt
+# %% 12.2 wrong: returns the same receipt to all clients | hint: Two purchases got the same receipt
 replace("len(self.receipts) + 1", "1")
 # %% 12.2 wrong: replaces the method of the purse | hint: The till did not take money
 replace("self.purse = purse", "self.purse = purse\n        type(purse).take = lambda self, cents: None")
-# %% 12.2 wrong: another exception for an empty id | hint: For an empty id, the handler raised an exception of the wrong type
+# %% 12.2 wrong: raises another exception for an empty id | hint: For an empty id, the handler raised an exception of the wrong type
 replace("rospy.ServiceException", "ValueError")
 
-# %% 12.3 right: a loop with a clock
+# %% 12.3 right: uses a loop with a clock
 def pay(till, cents, deadline):
     request_id = str(uuid.uuid4())
     end, pause = time.monotonic() + deadline, 0.1
@@ -293,7 +293,7 @@ def pay(till, cents, deadline):
         pause *= 2
     return None
 
-# %% 12.3 right: a generator of pauses, and an id from another source
+# %% 12.3 right: uses a generator of pauses, and secrets for the id
 import secrets
 
 def pauses():
@@ -320,42 +320,42 @@ def pay(till, cents, deadline):
             return response.receipt
         time.sleep(max(0, min(pause, over - time.time())))
 
-# %% 12.3 wrong: no pause after a TimeoutError | hint: There was no pause after a TimeoutError
-based_on("a loop with a clock")
+# %% 12.3 wrong: does not pause after a TimeoutError | hint: There was no pause after a TimeoutError
+based_on("uses a loop with a clock")
 replace("                raise\n", "                raise\n            if isinstance(error, TimeoutError):\n                continue\n")
 # %% 12.3 wrong: treats a bad return value as a refusal | hint: An error that contains "handler returned" is not a refusal, because the handler has
 replace(' and "handler returned" not in str(error)', "")
-# %% 12.3 wrong: doubles before the first sleep | hint: The first pause is too long
+# %% 12.3 wrong: doubles the pause before the first sleep | hint: The first pause is too long
 replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "        pause *= 2\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))")
-# %% 12.3 wrong: sleeps past the deadline | hint: The last pause ended after the deadline
+# %% 12.3 wrong: sleeps longer than the deadline | hint: The last pause ended after the deadline
 replace("min(pause, max(end - time.monotonic(), 0))", "pause")
-# %% 12.3 wrong: as many tries as the deadline has seconds | hint: pay() ended before the deadline
+# %% 12.3 wrong: makes one attempt for each second of the deadline | hint: pay() ended before the deadline
 replace("while (rest := end - time.monotonic()) > 0:", "for _ in range(int(deadline)):\n        rest = max(end - time.monotonic(), 0)")
 # %% 12.3 wrong: waits for the service | hint: No server offers the till's service, but pay() waits
 replace("        try:", "        rospy.wait_for_service(till)\n        try:")
-# %% 12.3 wrong: tries once | hint: One failed call ended pay()
+# %% 12.3 wrong: makes only one attempt | hint: One failed call ended pay()
 replace("end, pause … pause *= 2\n", """try:
         return call_within(min(0.5, deadline), rospy.ServiceProxy(till, Charge), request_id, cents).receipt
     except TimeoutError:
     """)
-# %% 12.3 wrong: a new id for each try | hint: The calls of one payment had different ids
+# %% 12.3 wrong: uses a new id for each attempt | hint: The calls of one payment had different ids
 replace("\n    request_id = str(uuid.uuid4())", "")
 replace("request_id", "str(uuid.uuid4())")
-# %% 12.3 wrong: one id for all payments | hint: Two payments had the same id
+# %% 12.3 wrong: uses one id for all payments | hint: Two payments had the same id
 replace("def", "request_id = str(uuid.uuid4())\ndef")
 replace("\n    request_id = str(uuid.uuid4())", "")
-# %% 12.3 wrong: ids from a counter | hint: The ids come from a counter, and another program
+# %% 12.3 wrong: takes the ids from a counter | hint: The ids come from a counter, and another program
 replace("str(uuid.uuid4())", 'f"p{next(NUMBERS)}"')
 replace("def pay", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\ndef pay")
-# %% 12.3 wrong: no id | hint: The field `request_id` is empty
+# %% 12.3 wrong: sends no id | hint: The field `request_id` is empty
 replace("Charge), request_id, cents", 'Charge), "", cents')
-# %% 12.3 wrong: repeats a refusal | hint: The till refused the payment, but pay() called the till again
+# %% 12.3 wrong: calls again after a refusal | hint: The till refused the payment, but pay() called the till again
 replace("raise", "pass")
-# %% 12.3 wrong: None for a refusal | hint: The till refused the payment, but pay() did not raise an error
+# %% 12.3 wrong: returns None after a refusal | hint: The till refused the payment, but pay() did not raise an error
 replace("raise", "return None")
-# %% 12.3 wrong: the whole deadline for the first try | hint: The first call used the whole time until the deadline
+# %% 12.3 wrong: uses the whole time for the first attempt | hint: The first call used the whole time until the deadline
 replace("min(0.5, rest)", "rest")
-# %% 12.3 wrong: a proxy without a limit | hint: because a proxy has no time limit
+# %% 12.3 wrong: calls the proxy without a time limit | hint: because a proxy has no time limit
 replace("return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)", "return rospy.ServiceProxy(till, Charge)(request_id, cents)")
 # %% 12.3 wrong: does not catch TimeoutError | hint: the TimeoutError ended pay()
 replace("(rospy.ServiceException, TimeoutError)", "rospy.ServiceException")
@@ -363,52 +363,52 @@ replace("(rospy.ServiceException, TimeoutError)", "rospy.ServiceException")
 based_on("does not catch TimeoutError")
 replace("receipt", "receipt\n        except TimeoutError:\n            pass")
 replace("cannot process request", 'request" in str(error) or "error')
-# %% 12.3 wrong: two tries only | hint: During this payment, the till was … The till worked again before the deadline, but pay() had already ended
+# %% 12.3 wrong: makes only two attempts | hint: During this payment, the till was … The till worked again before the deadline, but pay() had already ended
 replace("end, pause = time.monotonic() + deadline, 0.1\n    while (rest := end - time.monotonic()) > 0:", "for _ in range(2):")
 replace("rest", "deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
-# %% 12.3 wrong: no pause | hint: The pause after the first failed call was missing or too short
+# %% 12.3 wrong: does not pause | hint: The pause after the first failed call was missing or too short
 replace("\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))", "")
-# %% 12.3 wrong: always the same pause | hint: The pauses do not grow fast enough
+# %% 12.3 wrong: always pauses for the same time | hint: The pauses do not grow fast enough
 replace("end, pause = time.monotonic() + deadline, 0.1", "end = time.monotonic() + deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
-# %% 12.3 wrong: two seconds for a try | hint: A call took longer than
+# %% 12.3 wrong: waits two seconds for each attempt | hint: A call took longer than
 replace("0.5", "2")
-# %% 12.3 wrong: a tenth of a second for a try | hint: s, so pay() called the till again too early
+# %% 12.3 wrong: waits a tenth of a second for each attempt | hint: s, so pay() called the till again too early
 replace("0.5", "0.1")
-# %% 12.3 wrong: half a second for the last try, too | hint: The deadline was 0.05 s
+# %% 12.3 wrong: waits half a second even for the last attempt | hint: The deadline was 0.05 s
 replace("(rest := end - time.monotonic()) > 0", "time.monotonic() < end")
 replace("min(0.5, rest)", "0.5")
-# %% 12.3 wrong: adds to the pause | hint: The pauses do not grow fast enough
+# %% 12.3 wrong: adds 0.1 s to each pause | hint: The pauses do not grow fast enough
 replace("pause *= 2", "pause += 0.1")
-# %% 12.3 wrong: less than twice as long | hint: The pauses do not grow fast enough
+# %% 12.3 wrong: multiplies each pause only by 1.9 | hint: The pauses do not grow fast enough
 replace("pause *= 2", "pause *= 1.9")
-# %% 12.3 wrong: begins with a shorter pause | hint: The pause after the first failed call was missing or too short
+# %% 12.3 wrong: begins with a pause of 0.05 s | hint: The pause after the first failed call was missing or too short
 replace("0.1", "0.05")
-# %% 12.3 wrong: five times | hint: The till worked again before the deadline, but pay() had already ended
+# %% 12.3 wrong: makes at most five attempts | hint: The till worked again before the deadline, but pay() had already ended
 replace("while (rest := end - time.monotonic()) > 0:", """for _ in range(5):
         rest = end - time.monotonic()
         if rest <= 0:
             break""")
-# %% 12.3 wrong: counts the pauses only | hint: pay() was still running after the deadline
+# %% 12.3 wrong: counts only the time of the pauses | hint: pay() was still running after the deadline
 replace("""end, pause = time.monotonic() + deadline, 0.1
     while (rest := end - time.monotonic()) > 0:""", "waited, pause = 0, 0.1\n    while waited < deadline:")
 replace("rest", "deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))", "(pause)\n        waited += pause")
-# %% 12.3 wrong: raises when the deadline has passed | hint: At the deadline, pay() raised an error
+# %% 12.3 wrong: raises an error at the deadline | hint: At the deadline, pay() raised an error
 replace("return None", 'raise TimeoutError("nobody knows")')
 # %% 12.3 wrong: forgets to return | hint: The till sent a receipt, but pay() returned None
 replace("            return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents).receipt", "            call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            break")
-# %% 12.3 wrong: the whole response | hint: pay() returned the whole response
+# %% 12.3 wrong: returns the whole response | hint: pay() returned the whole response
 replace("request_id, cents).receipt", "request_id, cents)")
-# %% 12.3 wrong: a fixed till | hint: pay() did not call the till
+# %% 12.3 wrong: calls a fixed till | hint: pay() did not call the till
 replace("ServiceProxy(till", 'ServiceProxy("/till"')
-# %% 12.3 wrong: calls twice | hint: The till had sent a receipt
+# %% 12.3 wrong: calls the till twice | hint: The till had sent a receipt
 replace("return call_within", "call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            return call_within")
-# %% 12.3 wrong: another exception for a refusal | hint: pay() raised a different error
+# %% 12.3 wrong: raises another exception after a refusal | hint: pay() raised a different error
 replace("                raise", '                raise RuntimeError("refused")')
 
-# %% 12.4 right: one lock for look and stop
+# %% 12.4 right: uses one lock for polling and for stop()
 class Watchdog:
     def __init__(self, name, uri, master, every):
         self.service, self.uri, self.master, self.every = name, uri, master, every
@@ -436,12 +436,12 @@ class Watchdog:
         with self.lock:
             self.over.set()
 
-# %% 12.4 wrong: stops after it has registered the service | hint: The watchdog stopped polling although a master was running
+# %% 12.4 wrong: stops after the first registration | hint: The watchdog stopped polling although a master was running
 replace("rospy.get_node_uri())", "rospy.get_node_uri())\n                self.over.set()")
-# %% 12.4 wrong: a pause of one second | hint: The watchdog polls too rarely
+# %% 12.4 wrong: pauses for one second | hint: The watchdog polls too rarely
 replace("self.over.wait(self.every)", "self.over.wait(1.0)")
 
-# %% 12.4 right: with getSystemState
+# %% 12.4 right: uses getSystemState
 class Watchdog:
     def __init__(self, name, uri, master, every):
         self.name, self.uri, self.master, self.every = name, uri, master, every
@@ -463,7 +463,7 @@ class Watchdog:
         with self.lock:
             self.alive = False
 
-# %% 12.4 right: the XML-RPC handle, is_online, and a rate
+# %% 12.4 right: uses the XML-RPC handle, is_online, and a rate
 class Watchdog:
     def __init__(self, name, uri, master, every):
         self.name, self.uri, self.master = name, uri, master
@@ -488,7 +488,7 @@ class Watchdog:
         self.quit.set()
         self.done.wait()
 
-# %% 12.4 wrong: looks once | hint: The master does not know the name, and the watchdog has not
+# %% 12.4 wrong: polls only once | hint: The master does not know the name, and the watchdog has not
 class Watchdog:
     def __init__(self, name, uri, master, every):
         self.service, self.master = name, master
@@ -500,24 +500,24 @@ class Watchdog:
     def stop(self):
         pass
 
-# %% 12.4 wrong: registers once | hint: An error ended the watchdog's thread while no master was running
+# %% 12.4 wrong: ends the thread after an error | hint: An error ended the watchdog's thread while no master was running
 replace("(OSError, rosgraph.MasterException)", "rosgraph.MasterException")
-# %% 12.4 wrong: loops in __init__ | hint: Run the endless loop in a thread
+# %% 12.4 wrong: runs the loop in __init__ | hint: Run the endless loop in a thread
 replace("threading.Thread(target=self.run, daemon=True).start()", "self.run()")
-# %% 12.4 wrong: the addresses mixed up | hint: registerService() got the addresses in the wrong order
+# %% 12.4 wrong: exchanges the two addresses | hint: registerService() got the addresses in the wrong order
 replace("self.uri, rospy.get_node_uri()", "rospy.get_node_uri(), self.uri")
-# %% 12.4 wrong: takes the name back from another provider | hint: Another node provides this service now, but the watchdog registered its own
+# %% 12.4 wrong: replaces the registration of another node | hint: Another node provides this service now, but the watchdog registered its own
 replace("self.master.lookupService(self.service)", """if self.master.lookupService(self.service) != self.uri:
                     raise rosgraph.MasterError(self.service)""")
-# %% 12.4 wrong: registers at every look | hint: registers a name that the master already knows
+# %% 12.4 wrong: registers the service in each poll | hint: registers a name that the master already knows
 replace("""
             try:
                 self.master.lookupService(self.service)
             except rosgraph.MasterError:
                 self.master.""", "\n            self.master.")
-# %% 12.4 wrong: stops in the middle of a look | hint: The thread registered the service after stop() had returned
+# %% 12.4 wrong: stops without waiting for the current poll | hint: The thread registered the service after stop() had returned
 replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
-# %% 12.4 wrong: another thread registers the service | hint: The thread registered the service after stop() had returned
+# %% 12.4 wrong: registers the service in another thread after stop() | hint: The thread registered the service after stop() had returned
 replace("self.over.set()", "self.over.set()\n            threading.Thread(target=self.go_on, daemon=True).start()")
 replace("    def stop", """    def go_on(self):
         while True:
@@ -525,10 +525,10 @@ replace("    def stop", """    def go_on(self):
             time.sleep(self.every)
 
     def stop""")
-# %% 12.4 wrong: sleeps in stop | hint: The thread registered the service after stop() had returned
-based_on("stops in the middle of a look")
+# %% 12.4 wrong: sleeps in stop() instead of waiting for the current poll | hint: The thread registered the service after stop() had returned
+based_on("stops without waiting for the current poll")
 replace("self.over.set()", "self.over.set()\n        time.sleep(0.8)")
-# %% 12.4 wrong: holds the lock all the time | hint: stop() does not return
+# %% 12.4 wrong: holds the lock during the whole loop | hint: stop() does not return
 replace("threading.Event()", "False")
 replace("while not self … get_node_uri())", """with self.lock:
             while not self.over:
@@ -540,95 +540,95 @@ replace("while not self … get_node_uri())", """with self.lock:
                     pass
                 time.sleep(self.every)""")
 replace(".set()", " = True")
-# %% 12.4 wrong: asks the kernel's own master | hint: The watchdog did not call the master that was passed to it
+# %% 12.4 wrong: uses another master than the given one | hint: The watchdog did not call the master that was passed to it
 replace("= name, uri, master, every", "= name, uri, rosgraph.Master(rospy.get_name()), every")
-# %% 12.4 wrong: looks without a pause | hint: The watchdog polls without a pause
+# %% 12.4 wrong: polls without a pause | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
 # %% 12.4 wrong: doubles the pause while there is no master | hint: The pauses between the polls grew while no master was running
 replace("name, uri, master, every\n", "name, uri, master, every\n        self.pause = every\n")
 replace("self.over.wait(self.every)", "self.over.wait(self.pause)")
 replace("self.look()\n", "self.look()\n                self.pause = self.every\n")
 replace("continue", "self.pause = min(60, 2 * self.pause)")
-# %% 12.4 wrong: disables the registration in place of the thread | hint: The thread continued to poll the master after stop() had returned
+# %% 12.4 wrong: disables the registration instead of ending the thread | hint: The thread continued to poll the master after stop() had returned
 replace("self.over.set()", "self.master.registerService = lambda *values: None")
-# %% 12.4 wrong: no pause after a look that failed | hint: The watchdog polls without a pause
+# %% 12.4 wrong: does not pause after a failed poll | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
 replace("self.look()", "self.look()\n                self.over.wait(self.every)")
-# %% 12.4 wrong: looks at a flag before it registers | hint: The thread registered the service after stop() had returned
+# %% 12.4 wrong: reads a flag before the registration, but uses no lock | hint: The thread registered the service after stop() had returned
 replace("self.master.registerService", "if not self.over.is_set():\n                    self.master.registerService")
 replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
-# %% 12.4 wrong: ends when another node has the name | hint: The name is free again, but the watchdog does not register its own service
+# %% 12.4 wrong: ends when another node offers the service | hint: The name is free again, but the watchdog does not register its own service
 replace("self.master.lookupService(self.service)", """if self.master.lookupService(self.service) != self.uri:
                     self.over.set()""")
-# %% 12.4 wrong: the address of the service for that of the node | hint: The last argument of registerService() is wrong
+# %% 12.4 wrong: registers the address of the service as the address of the node | hint: The last argument of registerService() is wrong
 replace("self.uri, rospy.get_node_uri()", "self.uri, self.uri")
-# %% 12.4 wrong: has the check's master forget that stop() has returned | hint: stop() does not return
+# %% 12.4 wrong: changes the master of the check | hint: stop() does not return
 replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
 replace("= name, uri, master, every", """= name, uri, master, every
         theirs = type(master.handle).__getattr__.__globals__["checked_master"]
         type(theirs).stopped = lambda self: None""")
 
-# %% 12.5 right: one after the other
+# %% 12.5 right: writes the cases in the order of the table
 solution()
 
-# %% 12.5 right: in another order
+# %% 12.5 right: writes the cases in another order
 diagnosis = dict(G="two providers", F="repeated", E="race", D="lock")
 diagnosis |= dict(zip("ABC", ["killed", "new master", "frozen"]))
 
-# %% 12.5 wrong: A and C exchanged | hint: The diagnosis "frozen" means that no service of the process responds … The master has an address for the name, but no process accepts connections at
+# %% 12.5 wrong: exchanges A and C | hint: The diagnosis "frozen" means that no service of the process responds … The master has an address for the name, but no process accepts connections at
 replace('"A": "killed"', '"A": "frozen"')
 replace('"C": "frozen"', '"C": "killed"')
-# %% 12.5 wrong: a new master taken for a killed server | hint: The diagnosis "killed" means that the server accepts no connections … Connections that are already open still work
+# %% 12.5 wrong: gives "killed" instead of "new master" | hint: The diagnosis "killed" means that the server accepts no connections … Connections that are already open still work
 replace('"new master"', '"killed"')
-# %% 12.5 wrong: a lock taken for a frozen process | hint: get_loggers responds, so the process runs
+# %% 12.5 wrong: gives "frozen" instead of "lock" | hint: get_loggers responds, so the process runs
 replace("lock", "frozen")
-# %% 12.5 wrong: a frozen process taken for a lock | hint: The diagnosis "lock" means that one handler holds a lock, so … not even get_loggers
+# %% 12.5 wrong: gives "lock" instead of "frozen" | hint: The diagnosis "lock" means that one handler holds a lock, so … not even get_loggers
 replace("frozen", "lock")
-# %% 12.5 wrong: a repeat taken for a race | hint: The diagnosis "race" means that the data is wrong, but no client has to … The server did the work of the first call, but the response
+# %% 12.5 wrong: gives "race" instead of "repeated" | hint: The diagnosis "race" means that the data is wrong, but no client has to … The server did the work of the first call, but the response
 replace("repeated", "race")
-# %% 12.5 wrong: a case left out | hint: Give a cause for each letter from A to G
+# %% 12.5 wrong: omits a case | hint: Give a cause for each letter from A to G
 replace('\n    "G": "two providers",', "")
-# %% 12.5 wrong: other words | hint: Copy the names from the list of causes
+# %% 12.5 wrong: uses another text for a cause | hint: Copy the names from the list of causes
 replace('"killed"', '"the server was killed"')
 
-# %% 12.5 wrong: sets | hint: Copy the names from the list of causes
+# %% 12.5 wrong: writes sets instead of strings | hint: Copy the names from the list of causes
 diagnosis = {"A": {"killed"}, "B": {"new master"}, "C": {"frozen"}, "D": {"lock"}, "E": {"race"}, "F": {"repeated"}, "G": {"two providers"}}
 
-# %% 12.5 wrong: a race taken for a repeat | hint: The diagnosis "repeated" means that the server did the same work twice … Two handlers read the same number at the same time, but no call failed
+# %% 12.5 wrong: gives "repeated" instead of "race" | hint: The diagnosis "repeated" means that the server did the same work twice … Two handlers read the same number at the same time, but no call failed
 replace('"race"', '"repeated"')
-# %% 12.5 wrong: two providers taken for a new master | hint: The diagnosis "new master" means that the master knows no provider, so each lookup … Both servers work, but the master stores only the newest provider of a name
+# %% 12.5 wrong: gives "new master" instead of "two providers" | hint: The diagnosis "new master" means that the master knows no provider, so each lookup … Both servers work, but the master stores only the newest provider of a name
 replace("two providers", "new master")
-# %% 12.5 wrong: a new master taken for two providers | hint: The diagnosis "two providers" means that two servers offer one service, and only one
+# %% 12.5 wrong: gives "two providers" instead of "new master" | hint: The diagnosis "two providers" means that two servers offer one service, and only one
 replace("new master", "two providers")
-# %% 12.5 wrong: a small letter | hint: as strings with capital letters
+# %% 12.5 wrong: uses a small letter as a key | hint: as strings with capital letters
 replace('"A"', '"a"')
 
-# %% 12.6 right: one after the other
+# %% 12.6 right: writes the situations in the order of the table
 solution()
 
-# %% 12.6 right: in another order
+# %% 12.6 right: writes the situations in another order
 policies = dict.fromkeys(["md5", "refused"], "report")
 policies["speed"] = "try again"
 policies["payment"], policies["step"] = "same id", "look first"
 policies["not started"] = "wait for the service"
 
-# %% 12.6 wrong: repeats a refusal | hint: The policy "try again" is right only if a second call can succeed, and if … The server has refused the request
+# %% 12.6 wrong: gives "try again" for a refusal | hint: The policy "try again" is right only if a second call can succeed, and if … The server has refused the request
 replace('"refused": "report"', '"refused": "try again"')
-# %% 12.6 wrong: waits for another definition | hint: only if no server is registered … The two programs were built with different definitions
+# %% 12.6 wrong: gives "wait for the service" for different definitions | hint: only if no server is registered … The two programs were built with different definitions
 replace('"md5": "report"', '"md5": "wait for the service"')
-# %% 12.6 wrong: tries a step again | hint: The policy "try again" is right only if a second call can succeed, and if … Perhaps the robot has already moved, and a second request moves it again
+# %% 12.6 wrong: gives "try again" for a step of the robot | hint: The policy "try again" is right only if a second call can succeed, and if … Perhaps the robot has already moved, and a second request moves it again
 replace('"look first"', '"try again"')
-# %% 12.6 wrong: gives up a payment | hint: With the policy "report", the client does not repeat the call, although a second … Perhaps the till has already taken the money
+# %% 12.6 wrong: gives "report" for a payment | hint: With the policy "report", the client does not repeat the call, although a second … Perhaps the till has already taken the money
 replace('"same id"', '"report"')
-# %% 12.6 wrong: looks before it sets the speed | hint: The policy "look first" is right only if a repetition does harm, and if … The request sets a state
+# %% 12.6 wrong: gives "look first" for the speed | hint: The policy "look first" is right only if a repetition does harm, and if … The request sets a state
 replace('"try again"', '"look first"')
-# %% 12.6 wrong: an id for a call that reached no server | hint: The policy "same id" helps only if the request has a field … No server got the call, but the server will run in a few seconds
+# %% 12.6 wrong: gives "same id" for a service that has not started | hint: The policy "same id" helps only if the request has a field … No server got the call, but the server will run in a few seconds
 replace('"wait for the service"', '"same id"')
-# %% 12.6 wrong: a situation left out | hint: Give a policy for each row of the table
+# %% 12.6 wrong: omits a situation | hint: Give a policy for each row of the table
 replace('\n    "step": "look first",', "")
 
-# %% 12.6 wrong: a list | hint: Copy the six names exactly from the first column of the table
+# %% 12.6 wrong: writes a list instead of a dict | hint: Copy the six names exactly from the first column of the table
 policies = ["report", "wait for the service"]
 
-# %% 12.6 wrong: other words | hint: Copy the names of the policies
+# %% 12.6 wrong: uses another text for a policy | hint: Copy the names of the policies
 replace('"report"', '"give up"', times=2)

@@ -1,6 +1,6 @@
 """Example answers of chapter 13; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 13.1 right: as in the chapter
+# %% 13.1 right: uses the solution from the chapter
 """%%writefile src/cpp_boxes/CMakeLists.txt
 cmake_minimum_required(VERSION 3.10)
 project(cpp_boxes)
@@ -13,7 +13,7 @@ add_executable(box_server src/box_server.cpp)
 target_link_libraries(box_server ${catkin_LIBRARIES})
 """
 
-# %% 13.1 right: with the headers for this program only, and in capitals
+# %% 13.1 right: sets the headers only for this program, and uses capital letters
 """%%writefile src/cpp_boxes/CMakeLists.txt
 CMAKE_MINIMUM_REQUIRED(VERSION 3.0.2)
 PROJECT(cpp_boxes)
@@ -28,49 +28,49 @@ TARGET_INCLUDE_DIRECTORIES(${PROJECT_NAME}_node PRIVATE ${catkin_INCLUDE_DIRS})
 TARGET_LINK_LIBRARIES(${PROJECT_NAME}_node ${catkin_LIBRARIES})
 """
 
-# %% 13.1 wrong: the file without its folder | hint: Write the path of the
+# %% 13.1 wrong: omits the folder of the source file | hint: Write the path of the
 replace("src/box_server.cpp", "box_server.cpp")
-# %% 13.1 wrong: a script in the place of the program | hint: The program does not use
+# %% 13.1 wrong: creates a script instead of the program | hint: The program does not use
 replace("""add_executable(box_server src/box_server.cpp)
 target_link_libraries(box_server ${catkin_LIBRARIES})""", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/box_server "#!/usr/bin/env python3\\nprint()\\n")
 file(COPY ${CMAKE_CURRENT_BINARY_DIR}/box_server DESTINATION ${CATKIN_DEVEL_PREFIX}/lib/cpp_boxes
      FILE_PERMISSIONS OWNER_READ OWNER_EXECUTE)""")
-# %% 13.1 wrong: another source file | hint: The program was not built from src/box_server.cpp
+# %% 13.1 wrong: compiles another source file | hint: The program was not built from src/box_server.cpp
 replace("add_executable(box_server src/box_server.cpp)", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/other.cpp "#include <ros/ros.h>
 int main(int c, char** v) { ros::init(c, v, \\"x\\"); }")
 add_executable(box_server ${CMAKE_CURRENT_BINARY_DIR}/other.cpp)""")
-# %% 13.1 wrong: the compiler runs during the configuration | hint: The program was not built from src/box_server.cpp
+# %% 13.1 wrong: runs the compiler during the configuration | hint: The program was not built from src/box_server.cpp
 replace("""add_executable(box_server src/box_server.cpp)
 target_link_libraries(box_server ${catkin_LIBRARIES})""", """list(TRANSFORM catkin_INCLUDE_DIRS PREPEND -I OUTPUT_VARIABLE headers)
 file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/cpp_boxes)
 execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${headers} ${PROJECT_SOURCE_DIR}/src/box_server.cpp
   ${catkin_LIBRARIES} -o ${CATKIN_DEVEL_PREFIX}/lib/cpp_boxes/box_server)""")
-# %% 13.1 wrong: all files in the folder | hint: CMake built box_server from all the files in the folder src
+# %% 13.1 wrong: compiles all files in the folder | hint: CMake built box_server from all the files in the folder src
 replace("add_executable(box_server src/box_server.cpp)", "file(GLOB SOURCES src/*.cpp)\nadd_executable(box_server ${SOURCES})")
-# %% 13.1 wrong: linked before it is declared | hint: Write add_executable above this line
+# %% 13.1 wrong: links the program before add_executable | hint: Write add_executable above this line
 replace("add_executable", "target_link_libraries(box_server ${catkin_LIBRARIES})\nadd_executable")
 replace("cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "cpp)")
-# %% 13.1 wrong: not linked | hint: Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable
+# %% 13.1 wrong: does not link the program | hint: Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable
 replace("\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
-# %% 13.1 wrong: no headers | hint: Write include_directories(${catkin_INCLUDE_DIRS}) above add_executable
+# %% 13.1 wrong: omits the folders of the headers | hint: Write include_directories(${catkin_INCLUDE_DIRS}) above add_executable
 replace("\ninclude_directories(${catkin_INCLUDE_DIRS})", "")
-# %% 13.1 wrong: another name for the program | hint: The program has the wrong name
+# %% 13.1 wrong: gives the program another name | hint: The program has the wrong name
 replace("box_server ", "server ", times=2)
-# %% 13.1 wrong: catkin_package last | hint: The command catkin_package is in the wrong line
+# %% 13.1 wrong: calls catkin_package last | hint: The command catkin_package is in the wrong line
 replace("\ncatkin_package()\n", "")
 replace("(box_server ${catkin_LIBRARIES})", "(box_server ${catkin_LIBRARIES})\ncatkin_package()")
-# %% 13.1 wrong: no catkin_package | hint: The command catkin_package is missing
+# %% 13.1 wrong: omits catkin_package | hint: The command catkin_package is missing
 replace("\ncatkin_package()\n", "")
 # %% 13.1 wrong: removes the lines with errors | hint: The command add_executable is missing, so CMake builds no program
 replace("\nadd_executable(box_server src/box_server.cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
-# %% 13.1 wrong: roscpp not found | hint: catkin_LIBRARIES contains only the libraries of the packages in find_package
+# %% 13.1 wrong: omits roscpp in find_package | hint: catkin_LIBRARIES contains only the libraries of the packages in find_package
 replace("roscpp course_pkg", "course_pkg")
-# %% 13.1 wrong: a library that is not there | hint: Read the end of the output of catkin_make
+# %% 13.1 wrong: links a library that does not exist | hint: Read the end of the output of catkin_make
 replace("${catkin_LIBRARIES})", "${catkin_LIBRARIES} boxes)")
 
-# %% 13.2 right: the mistakes repaired
+# %% 13.2 right: corrects all mistakes
 solution()
-# %% 13.2 right: a lambda in the place of a function, and a spinner of its own
+# %% 13.2 right: uses a lambda function and an AsyncSpinner
 replace("box_server.cpp", "box_server.cpp\n#include <algorithm>")
 replace("bool measure … }", "using Box = course_pkg::geometry;")
 replace("""ros::ServiceServer server = node.advertiseService("box", measure);
@@ -85,56 +85,56 @@ replace("""ros::ServiceServer server = node.advertiseService("box", measure);
   spinner.start();
   ros::waitForShutdown();
   return 0;""")
-# %% 13.2 wrong: starts a server in Python | hint: The program contains a call that can start another program
+# %% 13.2 wrong: starts a Python program | hint: The program contains a call that can start another program
 replace("#include <ros/ros.h>", "#include <ros/ros.h>\n#include <unistd.h>")
 replace("ros::spin();", "execlp(\"python3\", \"python3\", \"box_server.py\", nullptr);")
-# %% 13.2 wrong: a system call of its own | hint: The program contains a call that can start another program
+# %% 13.2 wrong: contains a machine instruction for system calls | hint: The program contains a call that can start another program
 replace("ros::spin();", """ros::spin();
 #ifdef __x86_64__
   __asm__ volatile("syscall");
 #else
   __asm__ volatile("svc #0");
 #endif""")
-# %% 13.2 wrong: becomes another program without a known function | hint: The program contains a call that can start another program
+# %% 13.2 wrong: starts another program with a function from dlsym | hint: The program contains a call that can start another program
 replace("#include <ros/ros.h>", "#include <dlfcn.h>\n#include <ros/ros.h>")
 replace("ros::spin();", """auto become = reinterpret_cast<int (*)(...)>(dlsym(RTLD_DEFAULT, "execlp"));
   become("python3", "python3", "-c", "import rospy, sys; from course_pkg.srv import geometry; "
          "rospy.init_node('x'); s = rospy.Service('box', geometry, lambda _: None); rospy.spin()",
          argv[1], argv[2], nullptr);""")
-# %% 13.2 wrong: three sides below 0 | hint: was below 0
+# %% 13.2 wrong: refuses only if all three sides are below 0 | hint: was below 0
 replace("if (", "if (!(request.length < 0 && request.width < 0 && request.height < 0) && (")
 replace("request.height < 0) return", "request.height < 0)) return")
-# %% 13.2 wrong: both halves by value | hint: and with both &
+# %% 13.2 wrong: passes request and response by value | hint: and with both &
 replace("& ", " ", times=2)
-# %% 13.2 wrong: a whole number for the area | hint: The digits after the decimal point are missing, because an int contains only whole
+# %% 13.2 wrong: stores the area as an int | hint: The digits after the decimal point are missing, because an int contains only whole
 replace("response.area = request", "int area = request")
 replace("request.width;", "request.width;\n  response.area = area;")
 replace("volume = response.area", "volume = area")
-# %% 13.2 wrong: no return at the end | hint: Write `return true;` or `return false;` at the end of every branch
+# %% 13.2 wrong: omits the return at the end | hint: Write `return true;` or `return false;` at the end of every branch
 replace("\n  return true;", "")
-# %% 13.2 wrong: returns 0 for success, as main does | hint: The handler returned false for a valid request, so the client got an error
+# %% 13.2 wrong: returns 0 instead of true | hint: The handler returned false for a valid request, so the client got an error
 replace("true", "0")
-# %% 13.2 wrong: what is advertised is not kept | hint: advertiseService returns an object, and the service
+# %% 13.2 wrong: does not store the ServiceServer object | hint: advertiseService returns an object, and the service
 replace("ros::ServiceServer server = node", "node")
-# %% 13.2 wrong: no spin | hint: The program ends, so its service also ends
+# %% 13.2 wrong: omits spin | hint: The program ends, so its service also ends
 replace(";\n  ros::spin();", ";")
-# %% 13.2 wrong: refuses nothing | hint: below 0. Refuse such a request
+# %% 13.2 wrong: accepts negative sides | hint: below 0. Refuse such a request
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
-# %% 13.2 wrong: a semicolon lost | hint: for a missing ; or bracket
+# %% 13.2 wrong: omits a semicolon | hint: for a missing ; or bracket
 replace("request.width;", "request.width")
-# %% 13.2 wrong: a field misspelt | hint: This object has no field or method high
+# %% 13.2 wrong: misspells a field | hint: This object has no field or method high
 replace("request.height < 0", "request.high < 0")
-# %% 13.2 wrong: checks two sides only | hint: The server sent a response, but height was below 0
+# %% 13.2 wrong: checks only two sides | hint: The server sent a response, but height was below 0
 replace("0 || request.height < 0", "0")
-# %% 13.2 wrong: checks the area and the volume | hint: below 0. Refuse such a request
+# %% 13.2 wrong: checks only the area and the volume | hint: below 0. Refuse such a request
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 replace("true", "response.area >= 0 && response.volume >= 0")
-# %% 13.2 wrong: checks the volume only | hint: below 0. Refuse such a request
+# %% 13.2 wrong: checks only the volume | hint: below 0. Refuse such a request
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 replace("true", "response.volume >= 0")
-# %% 13.2 wrong: refuses 0 | hint: A side was 0, but the handler refused the call
+# %% 13.2 wrong: refuses a side of 0 | hint: A side was 0, but the handler refused the call
 replace(" 0", "= 0", times=3)
-# %% 13.2 wrong: a whole number for the volume | hint: The digits after the decimal point are missing, because an int contains only whole
+# %% 13.2 wrong: stores the volume as an int | hint: The digits after the decimal point are missing, because an int contains only whole
 replace("response.volume = response.area", "int volume = request.length * request.width")
 replace("  return true;", "  response.volume = volume;\n  return true;")
 # %% 13.2 wrong: forgets the area | hint: The area is 0
@@ -143,16 +143,16 @@ replace("response.area = request.length * request.width;\n  response.volume = re
 replace("\n  response.volume = response.area * request.height;", "")
 # %% 13.2 wrong: adds the height | hint: The volume is wrong
 replace("response.area * request.height", "response.area + request.height")
-# %% 13.2 wrong: ends at a side below 0 | hint: The program has ended, or it does not respond
+# %% 13.2 wrong: exits if a side is below 0 | hint: The program has ended, or it does not respond
 replace(") return false;", ") std::exit(1);")
-# %% 13.2 wrong: a private name | hint: The node does not offer a service with the right name
+# %% 13.2 wrong: uses a private service name | hint: The node does not offer a service with the right name
 replace("NodeHandle node", "NodeHandle node(\"~\")")
-# %% 13.2 wrong: no ros::init | hint: The program crashed
+# %% 13.2 wrong: omits ros::init | hint: The program crashed
 replace("  ros::init(argc, argv, \"box_server\");\n", "")
 
-# %% 13.3 right: a loop that ends with the first response
+# %% 13.3 right: uses a loop that ends with the first response
 solution()
-# %% 13.3 right: the functions of ros::service
+# %% 13.3 right: uses the functions of ros::service
 replace('\n  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");', "")
 replace("if (!client.waitForExistence(ros::Duration(2))) return … return 1;", """bool answered = false;
   if (ros::service::waitForService("box", 2000)) {
@@ -166,7 +166,7 @@ replace("if (!client.waitForExistence(ros::Duration(2))) return … return 1;", 
     return 1;
   }
   std::cout << "volume: " << box.response.volume << std::endl;""")
-# %% 13.3 right: prints each try
+# %% 13.3 right: prints each attempt
 replace("\n  course_pkg … std::endl;", """
   course_pkg::geometry::Request request;
   course_pkg::geometry::Response response;
@@ -187,17 +187,17 @@ replace("\n    ros::WallDuration(0.2).sleep();\n  }", """
     attempt++;
   } while (attempt <= 3);
   std::cout << "no volume after 3 attempts" << std::endl;""")
-# %% 13.3 wrong: does not wait | hint: The program did not wait
+# %% 13.3 wrong: does not wait for the service | hint: The program did not wait
 replace(";\n  if (!client.waitForExistence(ros::Duration(2))) return 1;", ";")
-# %% 13.3 wrong: waits for ever | hint: The program waits without a limit
+# %% 13.3 wrong: waits for the service without a limit | hint: The program waits without a limit
 replace("if (!client.waitForExistence(ros::Duration(2))) return 1;", "client.waitForExistence();")
-# %% 13.3 wrong: ignores the return value of call | hint: call() returned false, but the program printed an empty response
+# %% 13.3 wrong: ignores the return value of call() | hint: call() returned false, but the program printed an empty response
 replace("if (client.call(box)) {", "client.call(box);\n    {")
-# %% 13.3 wrong: tests the volume | hint: A response with the volume 0 is valid
+# %% 13.3 wrong: checks the volume instead of the return value | hint: A response with the volume 0 is valid
 replace("if (client.call(box)) {", "client.call(box);\n    if (box.response.volume > 0) {")
-# %% 13.3 wrong: calls again and again | hint: Count the calls, and stop after the third
+# %% 13.3 wrong: calls without a limit | hint: Count the calls, and stop after the third
 replace("tries < 3; ++tries", ";")
-# %% 13.3 wrong: counts its runs | hint: The server refused the first two calls, but it responds to the third call
+# %% 13.3 wrong: counts its runs in a file | hint: The server refused the first two calls, but it responds to the third call
 replace("#include <ros", "#include <fstream>\n#include <ros")
 replace("  ros::NodeHandle", """  int run = 0;
   std::ifstream("runs") >> run;
@@ -210,72 +210,72 @@ replace("tries < 3", "tries <= 3")
 replace("3;", "2;")
 # %% 13.3 wrong: continues after the response | hint: The server sent a response, but the program called the server again
 replace("\n      return 0;\n    }\n    ros::WallDuration(0.2).sleep();\n  }\n  return 1;", "\n    }\n  }\n  return 0;")
-# %% 13.3 wrong: a success in any case | hint: No call got a response
+# %% 13.3 wrong: exits with status 0 after three failed calls | hint: No call got a response
 replace("\n  return 1;", "\n  return 0;")
-# %% 13.3 wrong: computes it itself | hint: The server sent a different volume
+# %% 13.3 wrong: calculates the volume without the response | hint: The server sent a different volume
 replace("box.response.volume", "box.request.length * box.request.width * box.request.height")
-# %% 13.3 wrong: no pause | hint: so the server probably refuses this call, too
+# %% 13.3 wrong: does not pause | hint: so the server probably refuses this call, too
 replace("\n    ros::WallDuration(0.2).sleep();", "")
-# %% 13.3 wrong: five seconds | hint: s, which is too long
+# %% 13.3 wrong: waits for five seconds | hint: s, which is too long
 replace("(2)", "(5)")
-# %% 13.3 wrong: two milliseconds | hint: The program waited only a few milliseconds, because waitForService reads a plain number as
+# %% 13.3 wrong: waits for two milliseconds | hint: The program waited only a few milliseconds, because waitForService reads a plain number as
 replace('\n  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");', "")
 replace("client.waitForExistence(ros::Duration(2))", 'ros::service::waitForService("box", 2)')
 replace("client.call(box)", 'ros::service::call("box", box)')
 # %% 13.3 wrong: prints nothing | hint: Print box.response.volume to std::cout
 replace("      std::cout << box.response.volume << std::endl;\n", "")
-# %% 13.3 wrong: prints a volume at the end | hint: The program printed a volume, although it got no response
+# %% 13.3 wrong: prints a volume after three failed calls | hint: The program printed a volume, although it got no response
 replace("\n  return 1;", "\n  std::cout << box.response.volume << std::endl;\n  return 1;")
-# %% 13.3 wrong: a success without a server | hint: When the time is over, waitForExistence returns false
+# %% 13.3 wrong: exits with status 0 if there is no server | hint: When the time is over, waitForExistence returns false
 replace("(ros::Duration(2))) return 1", "(ros::Duration(2))) return 0")
 
-# %% 13.4 right: an AsyncSpinner, and a lock for counting
+# %% 13.4 right: uses an AsyncSpinner, and locks the count
 solution()
-# %% 13.4 right: a MultiThreadedSpinner, and the lock in the handler after thinking
+# %% 13.4 right: uses a MultiThreadedSpinner, and locks after think()
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
 replace("think();", "think();\n  std::unique_lock<std::mutex> lock(counting);")
 replace("ros::AsyncSpinner … waitForShutdown();", "ros::MultiThreadedSpinner spinner(8);\n  spinner.spin();")
-# %% 13.4 wrong: a lock, and still one thread | hint: ros::spin() executes only one callback at a time
+# %% 13.4 wrong: uses a lock, but only one thread | hint: ros::spin() executes only one callback at a time
 replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
 replace("waitForShutdown()", "spin()")
-# %% 13.4 wrong: more threads, and no lock | hint: Two threads read the same number, and both threads add 1 to it
+# %% 13.4 wrong: uses several threads without a lock | hint: Two threads read the same number, and both threads add 1 to it
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
-# %% 13.4 wrong: an atomic number | hint: Two threads can read the same number before one of them writes the
+# %% 13.4 wrong: uses an atomic number | hint: Two threads can read the same number before one of them writes the
 replace("include <mutex", "include <atomic")
 replace("int served = 0;\nstd::mutex counting;", "std::atomic<int> served{0};")
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
-# %% 13.4 wrong: a mutex in the function | hint: Each call creates its own mutex
+# %% 13.4 wrong: creates the mutex in the function | hint: Each call creates its own mutex
 replace("int served = 0;\nstd::mutex counting;", "int served = 0;")
 replace("int count() {", "int count() {\n  std::mutex counting;")
-# %% 13.4 wrong: locked while it thinks | hint: The handler holds the lock during think()
+# %% 13.4 wrong: holds the lock during think() | hint: The handler holds the lock during think()
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
 replace("  think();", "  std::lock_guard<std::mutex> lock(counting);\n  think();")
-# %% 13.4 wrong: one thread asked for | hint: The spinner has too few threads
+# %% 13.4 wrong: starts only one thread | hint: The spinner has too few threads
 replace("6", "1")
-# %% 13.4 wrong: never started | hint: The AsyncSpinner executes no callbacks, because it was not started
+# %% 13.4 wrong: does not start the spinner | hint: The AsyncSpinner executes no callbacks, because it was not started
 replace("\n  spinner.start();", "")
-# %% 13.4 wrong: main does not wait | hint: The program ends, because main starts the spinner and then returns
+# %% 13.4 wrong: does not wait in main() | hint: The program ends, because main starts the spinner and then returns
 replace("spinner.start();\n  ros::waitForShutdown();", "spinner.start();")
-# %% 13.4 wrong: does not think | hint: The functions think() and count() simulate long calculations, so do
+# %% 13.4 wrong: removes the pause from think() | hint: The functions think() and count() simulate long calculations, so do
 replace("\n  ros::WallDuration(0.4).sleep();", "")
-# %% 13.4 wrong: three threads | hint: The spinner has too few threads
+# %% 13.4 wrong: starts only three threads | hint: The spinner has too few threads
 replace("6", "3")
-# %% 13.4 wrong: thinks for less, on one thread | hint: The functions think() and count() simulate long
+# %% 13.4 wrong: shortens think(), and uses one thread | hint: The functions think() and count() simulate long
 replace("int served = 0;\nstd::mutex counting;", "int served = 0;")
 replace("0.4", "0.04")
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
 replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
 replace("waitForShutdown()", "spin()")
-# %% 13.4 wrong: its own pause | hint: The functions think() and count() simulate long
+# %% 13.4 wrong: replaces think() by its own pause | hint: The functions think() and count() simulate long
 replace("  think();", "  if (served < 0) think();\n  ros::WallDuration(0.25).sleep();")
-# %% 13.4 wrong: unlocks between reading and writing | hint: The lock is not held between the read and the write, so two threads
+# %% 13.4 wrong: releases the lock between reading and writing | hint: The lock is not held between the read and the write, so two threads
 replace("std::lock_guard<std::mutex> lock(counting);", "counting.lock();")
 replace("int seen = served;", "int seen = served;\n  counting.unlock();")
 replace("(0.05).sleep();", "(0.05).sleep();\n  counting.lock();")
 replace("served = seen + 1;", "served = seen + 1;\n  counting.unlock();")
-# %% 13.4 wrong: no spinner | hint: No spinner executes the callbacks
+# %% 13.4 wrong: uses no spinner | hint: No spinner executes the callbacks
 replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
-# %% 13.4 wrong: a zero before the number | hint: The field `message` has to contain only the number
+# %% 13.4 wrong: writes a zero before the number | hint: The field `message` has to contain only the number
 replace("std::to_string(count())", "\"0\" + std::to_string(count())")
-# %% 13.4 wrong: text before the number | hint: The field `message` has to contain only the number
+# %% 13.4 wrong: writes a text before the number | hint: The field `message` has to contain only the number
 replace("std::to_string(count())", "\"number \" + std::to_string(count())")

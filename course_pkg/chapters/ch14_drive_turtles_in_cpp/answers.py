@@ -1,8 +1,8 @@
 """Example answers of chapter 14; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 14.1 right: a client of a handle
+# %% 14.1 right: uses a client of the node handle
 solution()
-# %% 14.1 right: the functions of ros::service
+# %% 14.1 right: uses the functions of ros::service
 replace("spawn_turtle.cpp", "spawn_turtle.cpp\n#include <iostream>\n")
 replace("ros::init( … return 0;", """ros::init(argc, argv, "spawner", ros::init_options::AnonymousName);
   ros::start();
@@ -17,31 +17,31 @@ replace("ros::init( … return 0;", """ros::init(argc, argv, "spawner", ros::ini
     return EXIT_FAILURE;
   }
   std::cout << "spawned " << response.name << std::endl;""")
-# %% 14.1 wrong: no wait | hint: The program ended before the service started
+# %% 14.1 wrong: does not wait for the service | hint: The program ended before the service started
 replace('  if (!client.waitForExistence(ros::Duration(5))) {\n    ROS_ERROR("no simulator within 5 s");\n    return 1;\n  }\n', '')
-# %% 14.1 wrong: rosservice calls the service | hint: The program contains a call that can start another program
+# %% 14.1 wrong: calls the service with rosservice | hint: The program contains a call that can start another program
 replace('#include <ros/ros.h>', '#include <dlfcn.h>\n#include <ros/ros.h>')
 replace('!client.call(spawn)', """reinterpret_cast<int (*)(const char*)>(dlsym(RTLD_DEFAULT, "system"))(
           ("rosservice call " + client.getService() + " 3 3 0 MyTurtle").c_str())""")
-# %% 14.1 wrong: no limit | hint: The program waits too long, or without a limit
+# %% 14.1 wrong: waits without a limit | hint: The program waits too long, or without a limit
 replace('ros::Duration(5)', '')
-# %% 14.1 wrong: five milliseconds | hint: The program stopped waiting too early
-based_on("the functions of ros::service")
+# %% 14.1 wrong: waits for only 1.5 s | hint: The program stopped waiting too early
+based_on("uses the functions of ros::service")
 replace('ros::service::waitForService("/spawn", 5000)', 'ros::service::waitForService("/spawn", 1500)')
-# %% 14.1 wrong: a plain number is a time in ms | hint: The program ended before the service started
-based_on("the functions of ros::service")
+# %% 14.1 wrong: waits for 5 ms instead of 5 s | hint: The program ended before the service started
+based_on("uses the functions of ros::service")
 replace('ros::service::waitForService("/spawn", 5000)', 'ros::service::waitForService("/spawn", 5)')
-# %% 14.1 wrong: the result of the call is ignored | hint: The server refused the call. In this case, print
+# %% 14.1 wrong: ignores the result of the call | hint: The server refused the call. In this case, print
 replace('  if (!client.call(spawn)) {\n    ROS_ERROR("the simulator refused MyTurtle");\n    return 1;\n  }\n', '  client.call(spawn);\n')
-# %% 14.1 wrong: no name | hint: The name is empty, so the simulator chooses a name
+# %% 14.1 wrong: sends no name | hint: The name is empty, so the simulator chooses a name
 replace('  spawn.request.name = "MyTurtle";\n', '')
-# %% 14.1 wrong: a semicolon is missing | hint: Look for a missing ; or bracket
+# %% 14.1 wrong: omits a semicolon | hint: Look for a missing ; or bracket
 replace('request.x = 3;', 'request.x = 3')
 
-# %% 14.2 right: a function, and spinOnce
+# %% 14.2 right: uses a function and spinOnce
 solution()
 
-# %% 14.2 right: a class with a timer
+# %% 14.2 right: uses a class with a timer
 """%%writefile src/my_turtles_cpp/src/pubvel_toggle.cpp
 #include <atomic>
 
@@ -84,28 +84,28 @@ int main(int argc, char** argv) {
 }
 """
 
-# %% 14.2 wrong: no spinOnce | hint: The call has not returned
+# %% 14.2 wrong: omits spinOnce | hint: The call has not returned
 replace('    ros::spinOnce();\n', '')
-# %% 14.2 wrong: a shell in wordexp() | hint: The program contains a call that can start another program
+# %% 14.2 wrong: starts a shell with wordexp() | hint: The program contains a call that can start another program
 replace('#include <ros/ros.h>', '#include <ros/ros.h>\n#include <wordexp.h>\n#include <thread>')
 replace('  ros::Rate', '''  wordexp_t words;
   std::thread([&] { wordexp("$(sleep 60)", &words, 0); }).detach();
   ros::Rate''')
 # %% 14.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
 replace('bool forward = true', 'bool forward = false')
-# %% 14.2 wrong: the service is dropped | hint: Create the service before the loop begins
+# %% 14.2 wrong: does not store the ServiceServer object | hint: Create the service before the loop begins
 replace('ros::ServiceServer server = node', 'node')
-# %% 14.2 wrong: the same message object in each loop | hint: The turtle turns, but it also moves ahead
+# %% 14.2 wrong: uses the same message object in each iteration | hint: The turtle turns, but it also moves ahead
 replace('    geometry_msgs::Twist message;\n', '')
 replace('  while (ros::ok()) {\n', '  geometry_msgs::Twist message;\n  while (ros::ok()) {\n')
-# %% 14.2 wrong: ten times per second | hint: The program does not publish twice per second
+# %% 14.2 wrong: publishes ten times per second | hint: The program does not publish twice per second
 replace('rate(2)', 'rate(10)')
-# %% 14.2 wrong: no header | hint: The compiler does not know the name std_srvs
+# %% 14.2 wrong: omits a header file | hint: The compiler does not know the name std_srvs
 replace('#include <std_srvs/Empty.h>\n', '')
 
-# %% 14.3 right: methods, and spinOnce
+# %% 14.3 right: uses methods and spinOnce
 solution()
-# %% 14.3 right: functions, and an AsyncSpinner
+# %% 14.3 right: uses functions and an AsyncSpinner
 """%%writefile src/my_turtles_cpp/src/pubvel_toggle_plus.cpp
 #include <atomic>
 #include <stdexcept>
@@ -148,9 +148,9 @@ int main(int argc, char** argv) {
 }
 """
 
-# %% 14.3 wrong: the loop keeps its rate | hint: A Rate object cannot change its rate
+# %% 14.3 wrong: does not change the Rate object of the loop | hint: A Rate object cannot change its rate
 replace('      rate = ros::Rate(used);\n', '')
-# %% 14.3 wrong: a whole number of rounds | hint: The program did not publish at the rate that the client had set
+# %% 14.3 wrong: rounds the period to a multiple of 0.01 s | hint: The program did not publish at the rate that the client had set
 replace("double used = driver.frequency;\n  ros::Rate rate(used);", "int rounds = 0;\n  ros::Rate rate(100);")
 replace("    if (used … rate.sleep();", """    rate.sleep();
     if (++rounds < static_cast<int>(100 / driver.frequency)) {
@@ -158,20 +158,20 @@ replace("    if (used … rate.sleep();", """    rate.sleep();
     }
     rounds = 0;
     publisher.publish(driver.velocity());""")
-# %% 14.3 wrong: whole numbers | hint: Store the rate as a float in Python, or as a double in C++
+# %% 14.3 wrong: stores the rate as an int | hint: Store the rate as a float in Python, or as a double in C++
 replace('double frequency', 'int frequency')
 replace('double used', 'int used')
 # %% 14.3 wrong: returns the new rate | hint: The field `before` contains the new rate
 replace('    response.before = frequency;\n    frequency = request.rate;\n', '    frequency = request.rate;\n    response.before = frequency;\n')
-# %% 14.3 wrong: an empty response | hint: The field `before` has its default value, 0.0
+# %% 14.3 wrong: returns an empty response | hint: The field `before` has its default value, 0.0
 replace('    response.before = frequency;\n', '')
-# %% 14.3 wrong: nan is accepted | hint: The node accepted nan
+# %% 14.3 wrong: accepts the rate nan | hint: The node accepted nan
 replace('!(request.rate > 0 && request.rate <= 100)', 'request.rate <= 0 || request.rate > 100')
 
-# %% 14.4 right: boost::bind
+# %% 14.4 right: uses boost::bind
 solution()
 
-# %% 14.4 right: a class, a mutex and an AsyncSpinner
+# %% 14.4 right: uses a class, a mutex and an AsyncSpinner
 """%%writefile src/my_turtles_cpp/src/improved_pubvel_toggle.cpp
 #include <cmath>
 #include <mutex>
@@ -266,18 +266,18 @@ int main(int argc, char** argv) {
 replace('bool moving = true', 'bool moving = false')
 # %% 14.4 wrong: publishes nothing while it is stopped | hint: No velocity arrived for 4 s
 replace('    publisher.publish(message);\n', '    if (state.moving) publisher.publish(message);\n')
-# %% 14.4 wrong: infinity is accepted | hint: The node accepted
+# %% 14.4 wrong: accepts an infinite speed | hint: The node accepted
 replace('!std::isfinite(request.speed)', 'std::isnan(request.speed)')
-# %% 14.4 wrong: a limit of the speed | hint: The node refused an allowed speed
+# %% 14.4 wrong: limits the speed | hint: The node refused an allowed speed
 replace('!std::isfinite(request.speed)', '!(std::fabs(request.speed) <= 1000)')
 # %% 14.4 wrong: forgets success | hint: The field `success` is False
 replace('  response.success = true;\n', '')
-# %% 14.4 wrong: never already | hint: This call changed nothing
+# %% 14.4 wrong: never writes "already" | hint: This call changed nothing
 replace('std::string(same ? "already " : "")', 'std::string(same ? "" : "")')
 
-# %% 14.5 right: a functor
+# %% 14.5 right: uses a functor
 solution()
-# %% 14.5 right: a function, and three clients
+# %% 14.5 right: uses a function and three clients
 replace("spawn_turtle_plus.cpp", "spawn_turtle_plus.cpp\n#include <iostream>\n")
 replace("// A functor … publisher;", "ros::Publisher publisher;")
 replace("  void operator … };", "void follow(const geometry_msgs::Twist& message) { publisher.publish(message); }")
@@ -298,100 +298,100 @@ replace("turtlesim: … follower);", """auto spawn = node.serviceClient<turtlesi
   publisher = node.advertise<geometry_msgs::Twist>("/" + spawned.name + "/cmd_vel", 100);
   auto subscriber = node.subscribe("/turtle1/cmd_vel", 100, follow);""")
 replace("spin();", "spin();\n  return 0;")
-# %% 14.5 wrong: no spin | hint: The node ended after the calls
+# %% 14.5 wrong: omits spin | hint: The node ended after the calls
 replace('  ros::spin();\n', '')
-# %% 14.5 wrong: no wait | hint: Wait for each service before you call the service
+# %% 14.5 wrong: does not wait for the services | hint: Wait for each service before you call the service
 replace('ros::service::waitForService(name, ros::Duration(5)) && ', '')
-# %% 14.5 wrong: the name is fixed | hint: Publish only on the topic /NAME/cmd_vel
+# %% 14.5 wrong: uses a fixed name for the topic | hint: Publish only on the topic /NAME/cmd_vel
 replace('spawn.response.name + "/cmd_vel"', '"MyTurtle/cmd_vel"')
-# %% 14.5 wrong: the speed is missing | hint: Send 2.0 in the field `speed`
+# %% 14.5 wrong: does not set the speed | hint: Send 2.0 in the field `speed`
 replace('  change.request.speed = 2.0;\n', '')
-# %% 14.5 wrong: no exit status | hint: If a wait times out or a call is refused, print a
+# %% 14.5 wrong: exits with status 0 after a failure | hint: If a wait times out or a call is refused, print a
 replace('    return 1;\n', '    return 0;\n')
 
-# %% 14.6 right: as in the chapter
+# %% 14.6 right: uses the solution from the chapter
 solution()
-# %% 14.6 right: a group
+# %% 14.6 right: uses a group
 replace('<arg name= … spawn_turtle_plus" />', """<arg name="addturtle" default="false"/>
   <node name="turtlesim" pkg="turtlesim" type="turtlesim_node"/>
   <node name="improved_pubvel_toggle" pkg="my_turtles_cpp" type="improved_pubvel_toggle"/>
   <group if="$(arg addturtle)">
     <node name="spawn_turtle_plus" pkg="my_turtles_cpp" type="spawn_turtle_plus"/>
   </group>""")
-# %% 14.6 wrong: the name of a Python script | hint: roslaunch does not find a program
+# %% 14.6 wrong: uses the name of a Python script | hint: roslaunch does not find a program
 replace('type="improved_pubvel_toggle"', 'type="improved_pubvel_toggle.py"')
-# %% 14.6 wrong: one turtle does not move | hint: Remove the attributes "ns" and "args" and all
+# %% 14.6 wrong: remaps the topic of one turtle | hint: Remove the attributes "ns" and "args" and all
 replace('  <node pkg="turtlesim"', '  <remap unless="$(arg addturtle)" from="turtle1/cmd_vel" to="nowhere" />\n  <node pkg="turtlesim"')
-# %% 14.6 wrong: true by default | hint: spawn_turtle_plus must not start without an argument
+# %% 14.6 wrong: uses the default value true | hint: spawn_turtle_plus must not start without an argument
 replace('default="false"', 'default="true"')
-# %% 14.6 wrong: no default | hint: The argument addturtle has no default value
+# %% 14.6 wrong: omits the default value | hint: The argument addturtle has no default value
 replace(' default="false"', '')
-# %% 14.6 wrong: no condition | hint: spawn_turtle_plus also starts with addturtle:=false
+# %% 14.6 wrong: omits the condition | hint: spawn_turtle_plus also starts with addturtle:=false
 replace('if="$(arg addturtle)" ', '')
 
-# %% 14.7 right: a MultiThreadedSpinner
+# %% 14.7 right: uses a MultiThreadedSpinner
 solution()
-# %% 14.7 right: an AsyncSpinner
+# %% 14.7 right: uses an AsyncSpinner
 replace("""ros::MultiThreadedSpinner spinner(4);
   spinner.spin();""", "ros::AsyncSpinner threads(8);\n  threads.start();\n  ros::waitForShutdown();")
-# %% 14.7 wrong: as it was | hint: Use a MultiThreadedSpinner or an AsyncSpinner
+# %% 14.7 wrong: does not change the program | hint: Use a MultiThreadedSpinner or an AsyncSpinner
 replace('  ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();\n', '  ros::spin(); // changed\n')
-# %% 14.7 wrong: one thread | hint: The handler of /report waits for /battery, but no free thread can execute the
+# %% 14.7 wrong: starts only one thread | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('spinner(4)', 'spinner(1)')
-# %% 14.7 wrong: a second queue with one thread | hint: The program uses a spinner with only one thread
+# %% 14.7 wrong: uses a second queue with one thread | hint: The program uses a spinner with only one thread
 replace('report_threads.cpp', 'report_threads.cpp\n#include <ros/callback_queue.h>')
 replace('ros::ServiceServer first = node.', 'ros::CallbackQueue queue;\n  ros::NodeHandle other;\n  other.setCallbackQueue(&queue);\n  ros::ServiceServer first = other.')
 replace('ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();', 'ros::AsyncSpinner spinner(1, &queue);\n  spinner.start();\n  ros::spin();')
-# %% 14.7 wrong: three threads | hint: One call works, but three calls at the same time do not end
+# %% 14.7 wrong: starts only three threads | hint: One call works, but three calls at the same time do not end
 replace('spinner(4)', 'spinner(3)')
-# %% 14.7 wrong: no call | hint: The handlers were changed
+# %% 14.7 wrong: does not call /battery | hint: The handlers were changed
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
-# %% 14.7 wrong: another name for the service of the client | hint: The handlers were changed
+# %% 14.7 wrong: calls another service with the same handler | hint: The handlers were changed
 replace('("battery", handleBattery)', '("battery", handleBattery);\n  ros::ServiceServer same = node.advertiseService("same", handleBattery)')
 replace('<std_srvs::Trigger>("battery")', '<std_srvs::Trigger>("same")')
-# %% 14.7 wrong: the call never runs | hint: The handlers were changed
+# %% 14.7 wrong: calls /battery only for an impossible level | hint: The handlers were changed
 replace('if (!battery', 'if (level < 0 && !battery')
 replace('inner.response.message', 'std::to_string(level)')
-# %% 14.7 wrong: no parameter | hint: The level in the message is wrong
+# %% 14.7 wrong: does not read the parameter | hint: The level in the message is wrong
 replace('  ros::param::param("~level", level, 80);\n', '')
-# %% 14.7 wrong: another message | hint: a colon, a space and the level
+# %% 14.7 wrong: returns another message | hint: a colon, a space and the level
 replace('"battery: "', '"Battery "')
-# %% 14.7 wrong: a client of another name | hint: The handler of /report returned false, because its call of /battery failed
+# %% 14.7 wrong: calls a service with another name | hint: The handler of /report returned false, because its call of /battery failed
 replace('<std_srvs::Trigger>("battery")', '<std_srvs::Trigger>("level")')
 
-# %% 14.8 right: an AsyncSpinner for the queue
+# %% 14.8 right: uses an AsyncSpinner for the queue
 solution()
-# %% 14.8 right: a thread with callAvailable
+# %% 14.8 right: uses a thread with callAvailable
 replace("report_queue.cpp", "report_queue.cpp\n#include <thread>\n")
 replace("""ros::AsyncSpinner spinner(1, &queue);
   spinner.start();""", "std::thread worker([&queue] {\n    while (ros::ok()) queue.callAvailable(ros::WallDuration(0.1));\n  });")
 replace("spin();", "spin();\n  worker.join();")
-# %% 14.8 wrong: more threads only | hint: Create a ros::CallbackQueue
+# %% 14.8 wrong: only starts more threads | hint: Create a ros::CallbackQueue
 replace('  ros::CallbackQueue queue;\n  ros::NodeHandle other;\n  other.setCallbackQueue(&queue);\n', '')
 replace('other.advertise', 'node.advertise')
 replace('spinner(1, &queue)', 'spinner(4)')
-# %% 14.8 wrong: a queue that no service uses, and sixteen threads | hint: The program creates a second callback queue, but /battery does not use it
+# %% 14.8 wrong: creates a queue that no service uses, and starts sixteen threads | hint: The program creates a second callback queue, but /battery does not use it
 replace('other.advertise', 'node.advertise')
 replace('  ros::spin();', '  ros::MultiThreadedSpinner many(16);\n  many.spin();')
-# %% 14.8 wrong: the second queue is for /report | hint: The program creates a second callback queue, but /battery does not use it
+# %% 14.8 wrong: uses the second queue for /report | hint: The program creates a second callback queue, but /battery does not use it
 replace('other.advertise', 'node.advertise')
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
-# %% 14.8 wrong: no spinner for the queue | hint: The handler of /report waits for /battery, but no free thread can execute the
+# %% 14.8 wrong: does not start a spinner for the queue | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('  spinner.start();\n', '')
-# %% 14.8 wrong: both in the new queue | hint: The handler of /report waits for /battery, but no free thread can execute the
+# %% 14.8 wrong: uses the second queue for both services | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
-# %% 14.8 wrong: both in a queue with four threads | hint: One call works, but eight calls at the same time do not end
+# %% 14.8 wrong: uses the second queue with four threads for both services | hint: One call works, but eight calls at the same time do not end
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 replace('spinner(1, &queue)', 'spinner(4, &queue)')
-# %% 14.8 wrong: no call | hint: The handlers were changed
+# %% 14.8 wrong: does not call /battery | hint: The handlers were changed
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
 
-# %% 14.9 right: ServiceEvent and M_string
+# %% 14.9 right: uses ServiceEvent and M_string
 solution()
 
-# %% 14.9 right: a method
+# %% 14.9 right: uses a method
 """%%writefile src/my_turtles_cpp/src/session_counter.cpp
 #include <unordered_map>
 
@@ -427,25 +427,25 @@ int main(int argc, char** argv) {
 }
 """
 
-# %% 14.9 wrong: one count for all | hint: The response contains the number of all calls
+# %% 14.9 wrong: uses one count for all sessions | hint: The response contains the number of all calls
 replace('++calls[session->second]', '++calls["all"]')
-# %% 14.9 wrong: the name of the node | hint: The response contains the number of all calls
+# %% 14.9 wrong: counts the calls of each node | hint: The response contains the number of all calls
 replace('++calls[session->second]', '++calls[event.getCallerName()]')
-# %% 14.9 wrong: the session and the name of the node | hint: The handler uses the name of the calling node
+# %% 14.9 wrong: counts the calls of each session and node | hint: The handler uses the name of the calling node
 replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
-# %% 14.9 wrong: three counts | hint: The response does not contain the number of calls in the session
+# %% 14.9 wrong: stores the counts of only three sessions | hint: The response does not contain the number of calls in the session
 replace('++calls[session->second]', '++calls[calls.size() < 3 || calls.count(session->second) ? session->second : "more"]')
-# %% 14.9 wrong: refuses only once | hint: The header had no field "session", but the response contains a count
+# %% 14.9 wrong: refuses only the first call without a session | hint: The header had no field "session", but the response contains a count
 replace('  if (session == header.end()) {', '  static int refused = 0;\n  if (session == header.end()) {\n    if (refused++) return true;')
-# %% 14.9 wrong: counts afterwards | hint: The response contains the number of calls before this call
+# %% 14.9 wrong: returns the count before the call | hint: The response contains the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
-# %% 14.9 wrong: a map in the handler | hint: In each call, the count starts at 0 again
+# %% 14.9 wrong: creates the map in the handler | hint: In each call, the count starts at 0 again
 replace('std::map<std::string, int> calls;\n', '')
 replace('bool handleCount(Event& event) {\n', 'bool handleCount(Event& event) {\n  std::map<std::string, int> calls;\n')
-# %% 14.9 wrong: no message | hint: The message is empty
+# %% 14.9 wrong: returns no message | hint: The message is empty
 replace('event.getResponse().message = std::to_string(++calls[session->second])', '++calls[session->second]')
-# %% 14.9 wrong: no look at the header | hint: The header had no field "session", but the response contains a count
+# %% 14.9 wrong: does not check whether the field exists | hint: The header had no field "session", but the response contains a count
 replace('  if (session == header.end()) {\n    return false;\n  }\n', '  std::string key = session == header.end() ? "" : session->second;\n')
 replace('++calls[session->second]', '++calls[key]')
-# %% 14.9 wrong: another field | hint: The response does not contain the number of calls in the session
+# %% 14.9 wrong: reads another field | hint: The response does not contain the number of calls in the session
 replace('find("session")', 'find("Session")')

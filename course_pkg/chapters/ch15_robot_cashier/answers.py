@@ -1,9 +1,9 @@
 """Example answers of chapter 15; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 15.1 right: a function that returns None for a malformed frame
+# %% 15.1 right: uses a function that returns None for a malformed frame
 solution()
 
-# %% 15.1 right: a class with numpy, and an exception
+# %% 15.1 right: uses a class with numpy, and an exception
 '''%%writefile src/my_cashier/scripts/vision.py
 #!/usr/bin/env python3
 """Tells whether a customer is in a frame."""
@@ -48,58 +48,58 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, so this frame shows a customer
+# %% 15.1 wrong: compares the mean brightness | hint: A fifth of the points is dark, so this frame shows a customer
 replace("10 * dark >= frame.width * frame.height", "sum(map(sum, rows)) < 96 * frame.width * frame.height")
-# %% 15.1 wrong: any dark point | hint: Only a twentieth of the points is dark
+# %% 15.1 wrong: returns True for any dark point | hint: Only a twentieth of the points is dark
 replace("10 * dark >= frame.width * frame.height", "dark > 0")
-# %% 15.1 wrong: more than a tenth | hint: Exactly a tenth of the points is dark, so this frame shows a
+# %% 15.1 wrong: requires more than a tenth of the points | hint: Exactly a tenth of the points is dark, so this frame shows a
 replace(">= frame.width", "> frame.width")
-# %% 15.1 wrong: rounded | hint: The number of dark points is less than a tenth of all points, so this
+# %% 15.1 wrong: rounds the share of dark points | hint: The number of dark points is less than a tenth of all points, so this
 replace("10 * dark >= frame.width * frame.height", "round(dark / (frame.width * frame.height), 2) >= 0.1")
-# %% 15.1 wrong: a tenth is rounded down | hint: The number of dark points is less than a tenth of all points, so this
+# %% 15.1 wrong: rounds a tenth of the points down | hint: The number of dark points is less than a tenth of all points, so this
 replace("10 * dark >= frame.width * frame.height", "dark >= frame.width * frame.height // 10")
-# %% 15.1 wrong: 96 is dark | hint: Some points have the value 96, but a point is dark only if its
+# %% 15.1 wrong: treats 96 as dark | hint: Some points have the value 96, but a point is dark only if its
 replace("point < 96", "point <= 96")
-# %% 15.1 wrong: the padding counts | hint: Each row has frame.step bytes, but only the first frame.width bytes are points
+# %% 15.1 wrong: counts the padding | hint: Each row has frame.step bytes, but only the first frame.width bytes are points
 replace("frame.data[start : start + frame.width]", "frame.data[start : start + frame.step]")
-# %% 15.1 wrong: always True | hint: No point is dark, so this frame shows no customer
+# %% 15.1 wrong: always publishes True | hint: No point is dark, so this frame shows no customer
 replace("10 * dark >= frame.width * frame.height", "dark >= 0")
-# %% 15.1 wrong: publishes only customers | hint: The node published nothing for a valid frame. Check whether the callback
+# %% 15.1 wrong: publishes only for frames with customers | hint: The node published nothing for a valid frame. Check whether the callback
 replace("if customer is not None:", "if customer:")
-# %% 15.1 wrong: publishes twice | hint: The node published more than one message for a frame
+# %% 15.1 wrong: publishes two messages for each frame | hint: The node published more than one message for a frame
 replace("        seen.publish(customer)", "        seen.publish(customer)\n        seen.publish(customer)")
-# %% 15.1 wrong: a malformed frame ends the node | hint: The node published nothing for a valid frame after a malformed frame
+# %% 15.1 wrong: ends the node after a malformed frame | hint: The node published nothing for a valid frame after a malformed frame
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None", "    if len(frame.data) != frame.height * frame.step:\n        rospy.signal_shutdown('malformed')\n        return None")
-# %% 15.1 wrong: bytes are missing | hint: Bytes are missing in this frame
+# %% 15.1 wrong: accepts frames with missing bytes | hint: Bytes are missing in this frame
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None\n", "")
-# %% 15.1 wrong: too many bytes | hint: This frame has more bytes than height * step, so it is not valid
+# %% 15.1 wrong: accepts frames with additional bytes | hint: This frame has more bytes than height * step, so it is not valid
 replace("len(frame.data) != frame", "len(frame.data) < frame")
-# %% 15.1 wrong: any encoding | hint: The encoding of this frame is not mono8
+# %% 15.1 wrong: accepts any encoding | hint: The encoding of this frame is not mono8
 replace('frame.encoding != "mono8" or ', "")
-# %% 15.1 wrong: another encoding with one byte for each point | hint: The encoding of this frame is not mono8
+# %% 15.1 wrong: accepts another encoding with one byte per point | hint: The encoding of this frame is not mono8
 replace('frame.encoding != "mono8"', 'frame.encoding not in ("mono8", "8UC1")')
-# %% 15.1 wrong: any step | hint: In this frame, a row has fewer bytes than points, which is
+# %% 15.1 wrong: accepts any step | hint: In this frame, a row has fewer bytes than points, which is
 replace(" or frame.step < frame.width", "")
-# %% 15.1 wrong: an empty frame | hint: A frame of 0 by 0 points
+# %% 15.1 wrong: accepts an empty frame | hint: A frame of 0 by 0 points
 replace('if frame.encoding != "mono8" or not frame.width or not frame.height or frame.step < frame.width:\n        return None', 'if frame.encoding != "mono8" or frame.step < frame.width:\n        return None\n    if not frame.data:\n        return False')
-# %% 15.1 wrong: no width | hint: The width of this frame is 0, so all its bytes are padding
+# %% 15.1 wrong: accepts a width of 0 | hint: The width of this frame is 0, so all its bytes are padding
 replace('not frame.width or not frame.height or', 'not frame.data or')
-# %% 15.1 wrong: another type | hint: The node subscribes to the topic of the frames with a wrong type
+# %% 15.1 wrong: subscribes with another message type | hint: The node subscribes to the topic of the frames with a wrong type
 replace("import Image", "import CompressedImage as Image")
-# %% 15.1 wrong: a global name | hint: The program uses the global name
+# %% 15.1 wrong: uses a global topic name | hint: The program uses the global name
 replace('"frames"', '"/frames"')
-# %% 15.1 wrong: another node name | hint: The program did not create the right node … The program did not create the right node
+# %% 15.1 wrong: uses another node name | hint: The program did not create the right node … The program did not create the right node
 replace('init_node("vision")', 'init_node("camera")')
-# %% 15.1 wrong: a misspelt topic | hint: The program runs, but no part of it
+# %% 15.1 wrong: misspells a topic | hint: The program runs, but no part of it
 replace('"customer_seen"', '"costumer_seen"')
 # %% 15.1 wrong: prepares the node as the course's programs do | hint: Your program starts or imports a program of the course
 replace('rospy.init_node("vision")', 'rospy.init_node("vision")\n    from course_pkg.ros import prepare_node\n    prepare_node()')
-# %% 15.1 wrong: no spin | hint: The program reached its last line, so the node ended
+# %% 15.1 wrong: omits spin | hint: The program reached its last line, so the node ended
 replace("\n    rospy.spin()", "")
 
-# %% 15.2 right: a condition
+# %% 15.2 right: uses a condition
 solution()
-# %% 15.2 right: a loop that looks again and again
+# %% 15.2 right: uses a loop that polls
 replace("threading\n", "math\nimport time")
 replace("import AwaitCustomer", "import AwaitCustomer, AwaitCustomerResponse")
 replace("import Bool\n", "import Bool\n\nnewest = None")
@@ -121,52 +121,52 @@ def main():
     rospy.Service("detect_customer", AwaitCustomer, handle)
     rospy.spin()""")
 replace('rospy.init_node("customer_detector")\n    Detector()\n    rospy.spin()', "main()")
-# %% 15.2 wrong: remembers a customer | hint: The newest message reports no customer, but `found` is True in the response
+# %% 15.2 wrong: never forgets a customer | hint: The newest message reports no customer, but `found` is True in the response
 replace("self.customer = message.data", "self.customer = self.customer or message.data")
-# %% 15.2 wrong: does not wait | hint: The response came too early
-based_on("a loop that looks again and again")
+# %% 15.2 wrong: does not wait for a customer | hint: The response came too early
+based_on("uses a loop that polls")
 replace("while not newest and", "while False and")
-# %% 15.2 wrong: waits for 1 s at most | hint: The response came too early
+# %% 15.2 wrong: waits for at most 1 s | hint: The response came too early
 replace("timeout=request.patience)", "timeout=min(request.patience, 1.0))")
-# %% 15.2 wrong: waits without a limit | hint: The response came too late
+# %% 15.2 wrong: waits for 30 s in any case | hint: The response came too late
 replace(", timeout=request.patience)", ", timeout=30)")
-# %% 15.2 wrong: always False | hint: The newest message reports a customer, but `found` is False in the response
-based_on("a loop that looks again and again")
+# %% 15.2 wrong: always returns False | hint: The newest message reports a customer, but `found` is False in the response
+based_on("uses a loop that polls")
 replace("found=bool(newest)", "")
-# %% 15.2 wrong: waits before it looks | hint: A customer was there before the call
-based_on("a loop that looks again and again")
+# %% 15.2 wrong: waits before the check | hint: A customer was there before the call
+based_on("uses a loop that polls")
 replace("    while not newest and time.monotonic() < end:\n        time.sleep(0.02)\n", "    time.sleep(req.patience)\n")
-# %% 15.2 wrong: a lock while it waits | hint: Do not hold a lock while the handler waits
+# %% 15.2 wrong: holds a lock while it waits | hint: Do not hold a lock while the handler waits
 replace("            return self.changed.wait_for(lambda: self.customer, timeout=request.patience)", "            end = rospy.get_time() + request.patience\n            while not self.customer and rospy.get_time() < end:\n                self.changed.wait(0.02)\n            return self.customer")
 replace("        with self.changed:\n            end", "        with self.turn, self.changed:\n            end")
 replace("        self.customer = False", "        self.customer = False\n        self.turn = threading.Lock()")
-# %% 15.2 wrong: wakes up one thread only | hint: The customer came while several calls were waiting, but one of these
+# %% 15.2 wrong: wakes up only one thread | hint: The customer came while several calls were waiting, but one of these
 replace("            self.customer = message.data\n            self.changed.notify_all()", "            if message.data and not self.customer:\n                self.changed.notify()\n            self.customer = message.data")
 # %% 15.2 wrong: polls twice per second | hint: A call got its response late, because the handler polls with long pauses
-based_on("a loop that looks again and again")
+based_on("uses a loop that polls")
 replace("time.sleep(0.02)", "time.sleep(min(0.5, end - time.monotonic()))")
-# %% 15.2 wrong: no limits | hint: The handler accepted an impossible value of `patience`
+# %% 15.2 wrong: accepts any patience | hint: The handler accepted an impossible value of `patience`
 replace("if not 0 <= request.patience <= 60:", "if False:")
 replace("timeout=request.patience)", "timeout=max(0, request.patience))")
-# %% 15.2 wrong: accepts nan | hint: The handler accepted nan (not a number), because each comparison with nan is False
+# %% 15.2 wrong: accepts the patience nan | hint: The handler accepted nan (not a number), because each comparison with nan is False
 replace("if not 0 <= request.patience <= 60:", "if request.patience < 0 or request.patience > 60:")
-# %% 15.2 wrong: a message without patience | hint: The error message does not contain the word "patience"
+# %% 15.2 wrong: omits the word "patience" in the error message | hint: The error message does not contain the word "patience"
 replace('"patience has to be', '"it has to be')
-# %% 15.2 wrong: a long patience is cut | hint: The handler waited before it refused
+# %% 15.2 wrong: limits a long patience to 60 s | hint: The handler waited before it refused
 replace("if not 0 <= request.patience <= 60:", "if request.patience != request.patience or request.patience < 0:")
 replace("timeout=request.patience)", "timeout=min(request.patience, 60))")
-# %% 15.2 wrong: a ValueError | hint: The handler raised an error that is not a rospy.ServiceException
+# %% 15.2 wrong: raises a ValueError | hint: The handler raised an error that is not a rospy.ServiceException
 replace("raise rospy.ServiceException", "raise ValueError")
-# %% 15.2 wrong: refuses short calls | hint: The handler refused a valid call
+# %% 15.2 wrong: refuses a patience of 0 | hint: The handler refused a valid call
 replace("0 <= request", "0 < request")
-# %% 15.2 wrong: refuses 60 s | hint: The handler refused a valid call
+# %% 15.2 wrong: refuses a patience of 60 s | hint: The handler refused a valid call
 replace("<= 60:", "< 60:")
-# %% 15.2 wrong: another type | hint: The node does not subscribe to customer_seen with the right type
+# %% 15.2 wrong: subscribes with another message type | hint: The node does not subscribe to customer_seen with the right type
 replace("import Bool", "import Int32 as Bool")
 
-# %% 15.3 right: a condition, and the time of the newest message
+# %% 15.3 right: uses a condition, and stores the time of the newest message
 solution()
-# %% 15.3 right: a loop, and a pair of the message and its time
+# %% 15.3 right: uses a loop, and stores the newest message with its time
 '''%%writefile src/my_cashier/scripts/customer_detector.py
 #!/usr/bin/env python3
 import rospy
@@ -212,27 +212,27 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.3 wrong: the detector of 15.2 | hint: Without messages from the camera, the node does not know whether a customer is
+# %% 15.3 wrong: uses the detector of exercise 15.2 | hint: Without messages from the camera, the node does not know whether a customer is
 replace("return time.monotonic() - self.arrived > 1.0", "return False")
-# %% 15.3 wrong: an old customer counts | hint: The handler used a message that is older than 1 s
+# %% 15.3 wrong: uses an old message about a customer | hint: The handler used a message that is older than 1 s
 replace("lambda: self.customer and not self.is_silent()", "lambda: self.customer")
-# %% 15.3 wrong: refuses at once | hint: The node refused the call too early
+# %% 15.3 wrong: refuses immediately without a new message | hint: The node refused the call too early
 replace("        with self.changed:\n            found", "        if self.is_silent():\n            raise rospy.ServiceException('the camera is silent')\n        with self.changed:\n            found")
 # %% 15.3 wrong: uses only messages that come during the call | hint: A message can also be valid if it
 replace("        with self.changed:\n            found", "        began = time.monotonic()\n        with self.changed:\n            found")
 replace("if not found and self.is_silent()", "if not found and self.arrived < began")
-# %% 15.3 wrong: a message counts for 0.2 s | hint: The node did not use the last message
+# %% 15.3 wrong: uses messages for only 0.2 s | hint: The node did not use the last message
 replace("self.arrived > 1.0", "self.arrived > 0.2")
-# %% 15.3 wrong: a message without camera | hint: The error message does not contain the word "camera"
+# %% 15.3 wrong: omits the word "camera" in the error message | hint: The error message does not contain the word "camera"
 replace('"the camera is silent"', '"nothing is known"')
-# %% 15.3 wrong: silence at the beginning counts | hint: The camera stopped for some time, but new messages came before the end of
+# %% 15.3 wrong: refuses if the camera was silent at the beginning | hint: The camera stopped for some time, but new messages came before the end of
 replace("        with self.changed:\n            found", "        silent = self.is_silent()\n        with self.changed:\n            found")
 replace("            if not found and self.is_silent():", "            if silent:")
 
-# %% 15.5 right: a new message
+# %% 15.5 right: creates a new message
 solution()
 
-# %% 15.5 right: a class that changes the message itself
+# %% 15.5 right: uses a class that changes the received message
 '''%%writefile src/my_cashier/scripts/robot_cashier.py
 #!/usr/bin/python3
 import math
@@ -267,60 +267,60 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.5 wrong: unchanged | hint: ` is the same as in the joint state
+# %% 15.5 wrong: does not change the velocities | hint: ` is the same as in the joint state
 replace("[-value for value in joints.velocity]", "joints.velocity")
-# %% 15.5 wrong: an empty list | hint: is empty in the mirror image, but not in the joint state
+# %% 15.5 wrong: publishes an empty list of velocities | hint: is empty in the mirror image, but not in the joint state
 replace("                velocity=[-value for value in joints.velocity],\n", "")
-# %% 15.5 wrong: always negative | hint: A negative number has to become a positive number
+# %% 15.5 wrong: makes all positions negative | hint: A negative number has to become a positive number
 replace("[-value for value in joints.position]", "[-abs(value) for value in joints.position]")
-# %% 15.5 wrong: reversed | hint: Some numbers are wrong
+# %% 15.5 wrong: reverses the positions | hint: Some numbers are wrong
 replace("[-value for value in joints.position]", "[-value for value in reversed(joints.position)]")
-# %% 15.5 wrong: a new stamp | hint: The time stamp of a mirror image is different from the time stamp of the
+# %% 15.5 wrong: uses a new header | hint: The time stamp of a mirror image is different from the time stamp of the
 replace("                header=joints.header,\n", "")
-# %% 15.5 wrong: the stamp only | hint: Copy the whole header:
+# %% 15.5 wrong: changes the frame_id of the header | hint: Copy the whole header:
 replace("        mirrored.publish(", "        joints.header.frame_id = ''\n        mirrored.publish(")
-# %% 15.5 wrong: no effort | hint: ` of the mirror image is different from this field of the joint state
+# %% 15.5 wrong: omits the efforts | hint: ` of the mirror image is different from this field of the joint state
 replace("                effort=joints.effort,\n", "")
-# %% 15.5 wrong: any number of positions | hint: The number of names is different from the number of positions
+# %% 15.5 wrong: accepts any number of positions | hint: The number of names is different from the number of positions
 replace("len(joints.position) != count or ", "")
-# %% 15.5 wrong: any number of velocities | hint: The number of velocities has to be 0 or equal to the number of
+# %% 15.5 wrong: accepts any number of velocities | hint: The number of velocities has to be 0 or equal to the number of
 replace(" or len(joints.velocity) not in (0, count)", "")
-# %% 15.5 wrong: nan is mirrored | hint: A position or velocity was nan or inf, which is not valid
+# %% 15.5 wrong: mirrors nan | hint: A position or velocity was nan or inf, which is not valid
 replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "True")
-# %% 15.5 wrong: zeros for an invalid one | hint: The node published zeros for an invalid joint state, so the arm would move
+# %% 15.5 wrong: publishes zeros for an invalid joint state | hint: The node published zeros for an invalid joint state, so the arm would move
 replace("    if is_valid(joints):", "    if not is_valid(joints):\n        joints.position, joints.velocity = [0.0] * len(joints.name), []\n    if True:")
-# %% 15.5 wrong: needs velocities | hint: The node ignored a joint state without velocities, which is valid
+# %% 15.5 wrong: ignores joint states without velocities | hint: The node ignored a joint state without velocities, which is valid
 replace("not in (0, count)", "!= count")
-# %% 15.5 wrong: finite efforts only | hint: The node ignored a joint state with an infinite effort, which is valid
+# %% 15.5 wrong: ignores joint states with infinite efforts | hint: The node ignored a joint state with an infinite effort, which is valid
 replace("*joints.velocity]", "*joints.velocity, *joints.effort]")
-# %% 15.5 wrong: compares the number of efforts | hint: The node ignored a joint state in which the number of
+# %% 15.5 wrong: checks the number of efforts | hint: The node ignored a joint state in which the number of
 replace("len(joints.velocity) not in (0, count)", "len(joints.velocity) not in (0, count) or len(joints.effort) not in (0, count)")
-# %% 15.5 wrong: tests the sum | hint: The node ignored a joint state with two positions of 1e308
+# %% 15.5 wrong: checks only whether the sum is finite | hint: The node ignored a joint state with two positions of 1e308
 replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "math.isfinite(sum([*joints.position, *joints.velocity]))")
-# %% 15.5 wrong: leaves out a joint state without joints | hint: A joint state with 0 names and 0 positions is valid
+# %% 15.5 wrong: ignores a joint state without joints | hint: A joint state with 0 names and 0 positions is valid
 replace("if len(joints.position) != count", "if not count or len(joints.position) != count")
-# %% 15.5 wrong: published twice | hint: Some mirror images arrived more than once
+# %% 15.5 wrong: publishes each mirror image twice | hint: Some mirror images arrived more than once
 replace("        mirrored.publish(", "        mirrored.publish(JointState(joints.header, joints.name, [-p for p in joints.position], [-v for v in joints.velocity], joints.effort))\n        mirrored.publish(")
-# %% 15.5 wrong: ends with the first invalid one | hint: No mirror image arrived after the first invalid joint
+# %% 15.5 wrong: unregisters the subscriber after an invalid joint state | hint: No mirror image arrived after the first invalid joint
 replace("    if is_valid(joints):", "    if not is_valid(joints):\n        subscriber.unregister()\n    else:")
 replace('    rospy.Subscriber("joint', '    subscriber = rospy.Subscriber("joint')
-# %% 15.5 wrong: a loop with a pause | hint: Some mirror images are missing
+# %% 15.5 wrong: uses a loop with a pause | hint: Some mirror images are missing
 replace('("robot_cashier")', '("robot_cashier")\n    rospy.Subscriber("joint_states", JointState, lambda joints: None)')
 replace('rospy.Subscriber("joint_states", JointState, handle_joints)\n    rospy.spin()', """while not rospy.is_shutdown():
         handle_joints(rospy.wait_for_message("joint_states", JointState))
         rospy.sleep(0.1)""")
-# %% 15.5 wrong: publishes later | hint: The mirror images arrive late
+# %% 15.5 wrong: publishes 0.1 s too late | hint: The mirror images arrive late
 replace("    if is_valid(joints):", "    rospy.sleep(0.1)\n    if is_valid(joints):")
 # %% 15.5 wrong: publishes nothing | hint: No mirror image arrived. In the callback, publish
 replace("    if is_valid(joints):", "    if joints is None:")
-# %% 15.5 wrong: another type | hint: The node does not subscribe to joint_states with the right type
+# %% 15.5 wrong: subscribes with another message type | hint: The node does not subscribe to joint_states with the right type
 replace('''"joint_states", JointState, handle''', '''"joint_states", JointTrajectory, handle''')
 replace("import math\n", "import math\n\nfrom std_msgs.msg import Header as JointTrajectory\n")
 
-# %% 15.6 right: the main thread calls
+# %% 15.6 right: calls in the main thread
 solution()
 
-# %% 15.6 right: a class with a thread, and one loop
+# %% 15.6 right: uses a class with a thread, and a single loop
 '''%%writefile src/my_cashier/scripts/robot_cashier.py
 #!/usr/bin/env python3
 import math
@@ -383,51 +383,51 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.6 wrong: mirrors only | hint: No call arrived
+# %% 15.6 wrong: only mirrors the joint states | hint: No call arrived
 replace("while not rospy.is_shutdown():\n        if is_there(wait):\n            attend_visit()", "rospy.spin()")
-# %% 15.6 wrong: calls once | hint: The node called the service only once
+# %% 15.6 wrong: makes no more calls after the first response | hint: The node called the service only once
 replace("while not rospy … attend_visit()", "while is_there(wait) is None:\n        pass\n    rospy.spin()")
-# %% 15.6 wrong: an error at the start ends it | hint: The node called a service that did not exist yet, and rospy.ServiceException ended the
+# %% 15.6 wrong: exits if the first call fails | hint: The node called a service that did not exist yet, and rospy.ServiceException ended the
 replace('rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n        return None', "raise")
-# %% 15.6 wrong: a refusal ends it | hint: The node made no call after a failed call
+# %% 15.6 wrong: exits after a refused call | hint: The node made no call after a failed call
 replace("    while not rospy.is_shutdown():\n        if is_there", "    rospy.wait_for_service('detect_customer')\n    while not rospy.is_shutdown():\n        if is_there")
 replace('        rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n        return None', "        raise")
-# %% 15.6 wrong: a reset that fails ends it | hint: A call of till/reset failed, and the node then stopped calling detect_customer
+# %% 15.6 wrong: exits if a reset fails | hint: A call of till/reset failed, and the node then stopped calling detect_customer
 replace('''        rospy.logwarn("till/reset: %s", error)''', '''        raise''')
-# %% 15.6 wrong: another default | hint: Use rospy.get_param("~wait", 2.0)
+# %% 15.6 wrong: uses another default value | hint: Use rospy.get_param("~wait", 2.0)
 replace('"~wait", 2.0', '"~wait", 5.0')
-# %% 15.6 wrong: a fixed patience | hint: The field `patience` has a wrong value
+# %% 15.6 wrong: uses a fixed patience | hint: The field `patience` has a wrong value
 replace('rospy.get_param("~wait", 2.0)', '2.0')
-# %% 15.6 wrong: waits for the next customer at once | hint: In the last response, `found` was True, so a customer is there
+# %% 15.6 wrong: waits for the next customer although a customer is there | hint: In the last response, `found` was True, so a customer is there
 replace("    there = True\n", "    there = False\n")
-# %% 15.6 wrong: a refusal ends a visit | hint: A failed call does not end a visit
+# %% 15.6 wrong: ends a visit after a refused call | hint: A failed call does not end a visit
 replace("while there is not False and", "while there and")
-# %% 15.6 wrong: calls with 0 after a visit | hint: In the last response, `found` was False, so no customer is there
+# %% 15.6 wrong: calls again with patience 0 after a visit | hint: In the last response, `found` was False, so no customer is there
 replace("there = is_there(0)", "there = is_there(0)\n    is_there(0)")
-# %% 15.6 wrong: no pause during a visit | hint: wait 0.2 s between two calls
+# %% 15.6 wrong: does not pause during a visit | hint: wait 0.2 s between two calls
 replace("        if there:\n            rospy.sleep(0.2)\n", "")
-# %% 15.6 wrong: no pause after a refusal | hint: The node made the next call immediately after a failed call
+# %% 15.6 wrong: does not pause after a refusal | hint: The node made the next call immediately after a failed call
 replace("        rospy.sleep(0.5)\n", "")
-# %% 15.6 wrong: a long pause | hint: the next call came too late
+# %% 15.6 wrong: pauses for 3 s after a refusal | hint: the next call came too late
 replace("rospy.sleep(0.5)", "rospy.sleep(3)")
-# %% 15.6 wrong: another call before the response | hint: The node made a second call before it got the first response
+# %% 15.6 wrong: makes another call before the response arrives | hint: The node made a second call before it got the first response
 replace("import math", "import math\nimport threading")
 replace("return detect(patience).found", """results = []
         thread = threading.Thread(target=lambda: results.append(detect(patience).found), daemon=True)
         thread.start()
         thread.join(0.8)
         return results[0] if results else False""")
-# %% 15.6 wrong: no greeting | hint: A customer came, but the node sent no greeting
+# %% 15.6 wrong: publishes no greeting | hint: A customer came, but the node sent no greeting
 replace('    greetings.publish("Good day!")\n', "")
-# %% 15.6 wrong: greets again | hint: The node published more than one greeting in a visit
+# %% 15.6 wrong: publishes several greetings in a visit | hint: The node published more than one greeting in a visit
 replace("        there = is_there(0)\n", "        there = is_there(0)\n        if there:\n            greetings.publish('Good day!')\n")
-# %% 15.6 wrong: the response as a truth value | hint: `found` was False, but the node acted as if a customer was there
+# %% 15.6 wrong: uses the whole response as a truth value | hint: `found` was False, but the node acted as if a customer was there
 replace("return detect(patience).found", "return bool(detect(patience))")
-# %% 15.6 wrong: another greeting | hint: The text of the greeting is wrong
+# %% 15.6 wrong: publishes another greeting | hint: The text of the greeting is wrong
 replace("Good day!", "Hello")
-# %% 15.6 wrong: no reset | hint: The visit is over, but the node did not call till/reset
+# %% 15.6 wrong: does not call till/reset | hint: The visit is over, but the node did not call till/reset
 replace("        reset()\n", "        pass\n")
-# %% 15.6 wrong: resets when a visit begins | hint: The node called till/reset before the visit had ended
+# %% 15.6 wrong: calls till/reset at the beginning of a visit | hint: The node called till/reset before the visit had ended
 replace("""    try:
         reset()
     except rospy.ServiceException as error:
@@ -439,22 +439,22 @@ replace('    there = True\n', """    there = True
     except rospy.ServiceException:
         pass
 """)
-# %% 15.6 wrong: waits for a till | hint: The service till/reset does not exist, and the node stopped calling detect_customer
+# %% 15.6 wrong: waits for the service till/reset without a limit | hint: The service till/reset does not exist, and the node stopped calling detect_customer
 replace("        reset()\n", '        rospy.wait_for_service("till/reset")\n        reset()\n')
-# %% 15.6 wrong: resets before and after | hint: The node called till/reset more than once after a visit
+# %% 15.6 wrong: calls till/reset before and after a visit | hint: The node called till/reset more than once after a visit
 replace('    greetings.publish("Good day!")\n', '    greetings.publish("Good day!")\n    try:\n        reset()\n    except rospy.ServiceException:\n        pass\n')
 # %% 15.6 wrong: mirrors nothing during a visit | hint: During a visit, the node published no mirror images
 replace("def is_valid", "visiting = False\n\n\ndef is_valid")
 replace("    if is_valid(joints):", "    if is_valid(joints) and not visiting:")
 replace('    greetings.publish("Good day!")\n', '    global visiting\n    visiting = True\n    greetings.publish("Good day!")\n')
 replace("    try:\n        reset()\n", "    visiting = False\n    try:\n        reset()\n")
-# %% 15.6 wrong: calls in the callback | hint: The node publishes no mirror image while it waits for the
+# %% 15.6 wrong: calls the service in the callback | hint: The node publishes no mirror image while it waits for the
 replace("handle_joints(joints):", "handle_joints(joints):\n    if is_there(wait):\n        attend_visit()")
 replace("while not rospy.is_shutdown():\n        if is_there(wait):\n            attend_visit()", "rospy.spin()")
 
-# %% 15.4 right: sys.exit with the text
+# %% 15.4 right: uses sys.exit with the error message
 solution()
-# %% 15.4 right: two functions, and a status
+# %% 15.4 right: uses two functions, and an exit status
 replace("import sys … AwaitCustomer", '"""Is there a customer?"""\nimport sys\nimport rospy\nimport course_pkg.srv')
 replace('def main() … else "nobody")', """def ask(wait):
     rospy.wait_for_service("detect_customer", 3.0)
@@ -473,13 +473,13 @@ replace("main()", """rospy.init_node("ask_customer")
         print("customer")
     else:
         print("nobody")""")
-# %% 15.4 wrong: does not wait | hint: The service started 1 s after the program, but the program had
+# %% 15.4 wrong: does not wait for the service | hint: The service started 1 s after the program, but the program had
 replace('        rospy.wait_for_service("detect_customer", timeout=3)\n', "")
-# %% 15.4 wrong: a fixed patience | hint: The field `patience` has a wrong value
+# %% 15.4 wrong: uses a fixed patience | hint: The field `patience` has a wrong value
 replace('rospy.get_param("~wait", 2.0)', "2.0")
-# %% 15.4 wrong: another default | hint: The second argument of rospy.get_param is this default value
+# %% 15.4 wrong: uses another default value | hint: The second argument of rospy.get_param is this default value
 replace('"~wait", 2.0', '"~wait", 5.0')
-# %% 15.4 wrong: calls twice | hint: The program called the service more than once
+# %% 15.4 wrong: calls the service twice | hint: The program called the service more than once
 replace('AwaitCustomer)(patience)', 'AwaitCustomer)(patience)\n        response = rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)')
 # %% 15.4 wrong: calls again after a refusal | hint: The service refused the call, and the program called the service again
 replace("\n\ndef main():", """
@@ -495,38 +495,38 @@ def ask(patience):
 
 def main():""")
 replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', "ask(patience)")
-# %% 15.4 wrong: does not call | hint: The program did not call the service
+# %% 15.4 wrong: does not call the service | hint: The program did not call the service
 replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', 'rospy.ServiceProxy("detect_customer", AwaitCustomer)')
 replace('response.found', 'patience')
-# %% 15.4 wrong: spins | hint: The program called the service, but the program did not end
+# %% 15.4 wrong: calls spin at the end | hint: The program called the service, but the program did not end
 replace('else "nobody")', 'else "nobody")\n    rospy.spin()')
 # %% 15.4 wrong: prints nothing | hint: The program printed nothing
 replace('print("customer" if', '("customer" if')
-# %% 15.4 wrong: the response as a truth value | hint: `found` was False, but the program printed "customer"
+# %% 15.4 wrong: uses the whole response as a truth value | hint: `found` was False, but the program printed "customer"
 replace("if response.found", "if response")
 # %% 15.4 wrong: prints the response | hint: The program printed a wrong line
 replace('"customer" if response.found else "nobody"', "response")
-# %% 15.4 wrong: two lines | hint: The program printed more than one line
+# %% 15.4 wrong: prints two lines | hint: The program printed more than one line
 replace('    print("customer"', '    print("The detector says:")\n    print("customer"')
-# %% 15.4 wrong: an error status for nobody | hint: "nobody" is a valid result, so the exit status has to be 0
+# %% 15.4 wrong: exits with an error status if there is no customer | hint: "nobody" is a valid result, so the exit status has to be 0
 replace('else "nobody")', 'else "nobody")\n    sys.exit(0 if response.found else 3)')
-# %% 15.4 wrong: a refusal is not caught | hint: A refused call raises rospy.ServiceException
+# %% 15.4 wrong: does not catch a refusal | hint: A refused call raises rospy.ServiceException
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
-# %% 15.4 wrong: a message without the reason | hint: The output does not contain the reason for the failure
+# %% 15.4 wrong: omits the reason in the error message | hint: The output does not contain the reason for the failure
 replace("sys.exit(str(error))", 'sys.exit("failed")')
-# %% 15.4 wrong: exit status 0 after a refusal | hint: The call failed, so the exit status has to be 1
+# %% 15.4 wrong: exits with status 0 after a refusal | hint: The call failed, so the exit status has to be 1
 replace("sys.exit(str(error))", "print(error)\n        return")
 # %% 15.4 wrong: waits without a limit | hint: The service does not exist, and the program waited for more than 3 s
 replace(", timeout=3)", ")")
-# %% 15.4 wrong: the timeout is not caught | hint: After its timeout, rospy.wait_for_service raises rospy.ROSException
+# %% 15.4 wrong: does not catch the timeout | hint: After its timeout, rospy.wait_for_service raises rospy.ROSException
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ServiceException")
-# %% 15.4 wrong: silent without a service | hint: The service does not exist, and the program ended without a message
-based_on("two functions, and a status")
+# %% 15.4 wrong: prints nothing if there is no service | hint: The service does not exist, and the program ended without a message
+based_on("uses two functions, and an exit status")
 replace('        print("no detector:", e, file=sys.stderr)\n', "")
 
-# %% 15.7 right: a dict
+# %% 15.7 right: uses a dict
 solution()
-# %% 15.7 right: a class that keeps the total
+# %% 15.7 right: uses a class that stores the total
 replace("from course_pkg … cents by item", "from course_pkg.srv import TillSet, TillSetResponse, TillTotal, TillTotalResponse")
 replace("def handle_set … .values())", """class Till(object):
     def __init__(self):
@@ -553,39 +553,39 @@ replace("""rospy.init_node("till")
     rospy.Service("till/set", TillSet, handle_set)
     rospy.Service("till/total", TillTotal, handle_total)
     rospy.spin()""", "main()")
-# %% 15.7 wrong: the cents of the item | hint: The total is wrong
+# %% 15.7 wrong: returns the price of the item instead of the total | hint: The total is wrong
 replace("    return sum(prices.values())\n", "    return request.cents\n")
-# %% 15.7 wrong: an item counts twice | hint: The total contains the old price and the new price of an item
-based_on("a class that keeps the total")
+# %% 15.7 wrong: adds the old and the new price of an item | hint: The total contains the old price and the new price of an item
+based_on("uses a class that stores the total")
 replace(" - self.items.get(req.item, 0)", "")
-# %% 15.7 wrong: no free items | hint: An item that costs 0 cents is missing
+# %% 15.7 wrong: does not count items that cost 0 cents | hint: An item that costs 0 cents is missing
 replace("sum(prices.values()), len(prices)", "sum(prices.values()), len([p for p in prices.values() if p])")
-# %% 15.7 wrong: counts calls | hint: The field `items` is wrong
-based_on("a class that keeps the total")
+# %% 15.7 wrong: counts the calls instead of the items | hint: The field `items` is wrong
+based_on("uses a class that stores the total")
 replace("        self.items[req.item] =", "        self.calls = getattr(self, 'calls', 0) + 1\n        self.items[req.item] =")
 replace("len(self.items)", "getattr(self, 'calls', 0)")
-# %% 15.7 wrong: the largest price | hint: The field `cents` of till/total is wrong
+# %% 15.7 wrong: returns the largest price as the total | hint: The field `cents` of till/total is wrong
 replace("sum(prices.values()), len(prices)", "max(prices.values(), default=0), len(prices)")
-# %% 15.7 wrong: negative cents | hint: The till accepted negative cents
+# %% 15.7 wrong: accepts negative prices | hint: The till accepted negative cents
 replace("request.cents < 0", "False")
-# %% 15.7 wrong: a message without the cents | hint: The error message is not complete
+# %% 15.7 wrong: omits the cents in the error message | hint: The error message is not complete
 replace('f"{request.item}: {request.cents} cents are negative"', '"an item cannot be negative"')
-# %% 15.7 wrong: no name | hint: The till accepted an item with an empty name
+# %% 15.7 wrong: accepts an empty name | hint: The till accepted an item with an empty name
 replace("if not request.item:", "if False:")
-# %% 15.7 wrong: stores before it refuses | hint: The till refused the call, but the stored items have changed
+# %% 15.7 wrong: stores an item before it refuses the call | hint: The till refused the call, but the stored items have changed
 replace('    if not request.item:', '    prices[request.item] = request.cents\n    if not request.item:')
-# %% 15.7 wrong: 32 bits | hint: The till returned a wrong sum when the sum was above 2147483647
+# %% 15.7 wrong: limits a price to 32 bits | hint: The till returned a wrong sum when the sum was above 2147483647
 replace("    prices[request.item] = request.cents\n", "    prices[request.item] = min(request.cents, 2**31 - 1)\n")
-# %% 15.7 wrong: small letters | hint: The items milk and MILK are two different items
+# %% 15.7 wrong: converts the names to small letters | hint: The items milk and MILK are two different items
 replace("prices[request.item]", "prices[request.item.lower()]")
-# %% 15.7 wrong: refuses 0 cents | hint: The till refused a valid item
+# %% 15.7 wrong: refuses a price of 0 cents | hint: The till refused a valid item
 replace("request.cents < 0", "request.cents <= 0")
-# %% 15.7 wrong: a ValueError | hint: The handler raised an error that is not a rospy.ServiceException
+# %% 15.7 wrong: raises a ValueError | hint: The handler raised an error that is not a rospy.ServiceException
 replace("raise rospy.ServiceException(f", "raise ValueError(f")
 
-# %% 15.8 right: a lock around it all
+# %% 15.8 right: holds one lock while it prints and stores
 solution()
-# %% 15.8 right: acquire and release, and the error is caught
+# %% 15.8 right: uses acquire and release, and catches the error
 replace("\nimport rospy … and counted", """import rospy
 from course_pkg.srv import PrintLine, TillSet, TillSetResponse, TillTotal, TillTotalResponse""")
 replace("def handle_set … len(prices)", """class Till:
@@ -615,45 +615,45 @@ replace("def handle_set … len(prices)", """class Till:
 replace("print_line = rospy … handle_total)", "Till()")
 # %% 15.8 wrong: prints nothing | hint: The till printed nothing
 replace('        print_line(f"{request.item} {request.cents}")\n', "")
-# %% 15.8 wrong: another line | hint: The printed line is wrong
+# %% 15.8 wrong: prints another line | hint: The printed line is wrong
 replace('"{request.item} {request.cents}"', '"{request.item}: {request.cents}"')
-# %% 15.8 wrong: the refusal is swallowed | hint: The printer refused the line, but the till accepted the item
+# %% 15.8 wrong: hides the printer's refusal | hint: The printer refused the line, but the till accepted the item
 replace('        print_line(f"{request.item} {request.cents}")\n', '''        try:
             print_line(f"{request.item} {request.cents}")
         except rospy.ServiceException as error:
             rospy.logwarn(error)
 ''')
-# %% 15.8 wrong: the reason is lost | hint: The error message does not contain the printer's message
-based_on("acquire and release, and the error is caught")
+# %% 15.8 wrong: omits the printer's error message | hint: The error message does not contain the printer's message
+based_on("uses acquire and release, and catches the error")
 replace('"not printed: " + str(e)', '"not printed"')
-# %% 15.8 wrong: counts first | hint: The line was not printed, but the till changed its stored prices
+# %% 15.8 wrong: stores the price before it prints the line | hint: The line was not printed, but the till changed its stored prices
 based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
-# %% 15.8 wrong: waits for a printer | hint: Do not wait for this service without a time limit
+# %% 15.8 wrong: waits for the printer without a limit | hint: Do not wait for this service without a time limit
 replace("        print_line(f", "        rospy.wait_for_service('print_line')\n        print_line(f")
-# %% 15.8 wrong: repeats a refused line | hint: The till called print_line again after the printer had refused
+# %% 15.8 wrong: prints a refused line again | hint: The till called print_line again after the printer had refused
 replace('        print_line(f"{request.item} {request.cents}")\n', """        try:
             print_line(f"{request.item} {request.cents}")
         except rospy.ServiceException:
             print_line(f"{request.item} {request.cents}")
 """)
-# %% 15.8 wrong: no line for the old price | hint: Print exactly one line in each call of till/set
+# %% 15.8 wrong: prints no line if the price is unchanged | hint: Print exactly one line in each call of till/set
 replace("        print_line(", "        if prices.get(request.item) != request.cents:\n            print_line(")
-# %% 15.8 wrong: prints what it refuses | hint: The till printed a line for a refused item
+# %% 15.8 wrong: prints a line for a refused item | hint: The till printed a line for a refused item
 replace('    if not request.item:', '    print_line(f"{request.item} {request.cents}")\n    if not request.item:')
 replace('        print_line(f"{request.item} {request.cents}")\n        prices', '        prices')
-# %% 15.8 wrong: no lock | hint: The printer got two lines at the same time
+# %% 15.8 wrong: uses no lock | hint: The printer got two lines at the same time
 replace("    with turn:\n        print_line", "    if True:\n        print_line")
 # %% 15.8 wrong: repeats until the printer is free | hint: The printer refused a line, because it was still printing another line
-based_on("the refusal is swallowed")
+based_on("hides the printer's refusal")
 replace("""raise rospy.ServiceException(f"{request.item}: {request.cents} cents are negative")
     with turn:""", 'raise rospy.ServiceException(f"{request.item}: {request.cents} cents are negative")\n    for attempt in range(200):')
 replace('(f"{request.item} {request.cents}")', '(f"{request.item} {request.cents}")\n            break')
 replace("rospy.logwarn(error)", 'if "jam" not in str(error):\n                raise\n            rospy.sleep(0.01)\n    with turn:')
-# %% 15.8 wrong: the lock ends before the sum | hint: A total is not the sum of the prices that were printed
+# %% 15.8 wrong: releases the lock before it calculates the sum | hint: A total is not the sum of the prices that were printed
 replace("""prices[request.item] = request.cents
         return sum(prices.values())""", "prices[request.item] = request.cents\n    rospy.sleep(0.2)\n    return sum(prices.values())")
-# %% 15.8 wrong: the lock stays locked | hint: After a refused call, the next call got no response
+# %% 15.8 wrong: does not release the lock after a refused call | hint: After a refused call, the next call got no response
 based_on("prints nothing")
 replace("with turn:\n        prices[request.item] = request.cents\n        return sum(prices.values())", """turn.acquire()
     print_line(f"{request.item} {request.cents}")
@@ -662,14 +662,14 @@ replace("with turn:\n        prices[request.item] = request.cents\n        retur
     turn.release()
     return total""")
 replace("\n    with turn:\n        return sum(prices.values()), len(prices)", "\n    return sum(prices.values()), len(prices)")
-# %% 15.8 wrong: a persistent connection to the printer | hint: The printer was started again, but the till still refuses
+# %% 15.8 wrong: uses a persistent connection to the printer | hint: The printer was started again, but the till still refuses
 replace('("print_line", PrintLine)', '("print_line", PrintLine, persistent=True)')
-# %% 15.8 wrong: gives up early | hint: The till refused an item although the printer works
+# %% 15.8 wrong: refuses every item | hint: The till refused an item although the printer works
 replace('        print_line(f"{request.item} {request.cents}")\n', '        raise rospy.ServiceException("print_line is unavailable")\n')
 
-# %% 15.9 right: the dict is cleared
+# %% 15.9 right: clears the dict
 solution()
-# %% 15.9 right: a class and a response object
+# %% 15.9 right: uses a class and a response object
 replace("threading\n", "threading")
 replace("\n\nprices = {}  # cents by item\nturn = threading.Lock()  # held while a line is printed and counted", ", TriggerResponse")
 replace('def handle_set … paid} cents"', """class Till:
@@ -701,31 +701,31 @@ replace('def handle_set … paid} cents"', """class Till:
             self.items = {}
         return response""")
 replace("print_line = rospy … handle_reset)", "Till()")
-# %% 15.9 wrong: fails when it is empty | hint: The field `success` is False, but a reset always succeeds
+# %% 15.9 wrong: returns success=False for an empty till | hint: The field `success` is False, but a reset always succeeds
 replace('True, "already empty"', 'False, "already empty"')
-# %% 15.9 wrong: prints the sum | hint: The field `success` is False, but a reset always succeeds
+# %% 15.9 wrong: prints the sum in a reset | hint: The field `success` is False, but a reset always succeeds
 replace("        prices.clear()\n", '        prices.clear()\n        print_line(f"sum {paid}")\n')
-# %% 15.9 wrong: another message | hint: The message is wrong
+# %% 15.9 wrong: returns another message | hint: The message is wrong
 replace('f"paid {paid} cents"', 'f"{paid} cents paid"')
-# %% 15.9 wrong: adds up the printed lines | hint: The total contains the old price and the new price of an item
+# %% 15.9 wrong: adds the prices of all printed lines | hint: The total contains the old price and the new price of an item
 replace("prices = {}  # cents by item", "prices = {}  # cents by item\nprinted = []")
 replace("        prices[request.item] =", "        printed.append(request.cents)\n        prices[request.item] =")
 replace("paid = sum(prices.values())", "paid = sum(printed)\n        printed.clear()")
-# %% 15.9 wrong: no message for an empty till | hint: The till has no items, so the message has to be "already empty"
+# %% 15.9 wrong: omits the message for an empty till | hint: The till has no items, so the message has to be "already empty"
 replace('        if not prices:\n            return True, "already empty"\n', "")
-# %% 15.9 wrong: looks at the sum | hint: The till has an item that costs 0 cents, so it is not empty
+# %% 15.9 wrong: checks the sum instead of the items | hint: The till has an item that costs 0 cents, so it is not empty
 replace("if not prices:", "if not sum(prices.values()):")
-# %% 15.9 wrong: keeps the items | hint: The till still has items after a reset
+# %% 15.9 wrong: does not remove the items | hint: The till still has items after a reset
 replace("        prices.clear()\n", "")
-# %% 15.9 wrong: a sum before the lock | hint: but the sum does not contain this item
+# %% 15.9 wrong: calculates the sum before it acquires the lock | hint: but the sum does not contain this item
 replace("handle_reset(request):", """handle_reset(request):
     if not prices:
         return True, "already empty"
     paid = sum(prices.values())""")
 replace('\n        if not prices:\n            return True, "already empty"\n        paid = sum(prices.values())', "")
-# %% 15.9 wrong: no lock | hint: The handler of till/reset did not wait until the line was printed
+# %% 15.9 wrong: uses no lock in the reset | hint: The handler of till/reset did not wait until the line was printed
 replace("def handle_reset(request):\n    with turn:", "def handle_reset(request):\n    if True:")
-# %% 15.9 wrong: the lock is released before storing | hint: and this item was in the till after the reset
+# %% 15.9 wrong: releases the lock before it stores the item | hint: and this item was in the till after the reset
 replace("by item", "by item\npending = {}")
 replace("\n        prices[request.item] = request.cents\n        return sum(prices.values())", """
         pending[request.item] = request.cents
@@ -735,10 +735,10 @@ replace("\n        prices[request.item] = request.cents\n        return sum(pric
     return sum(prices.values())""")
 replace("= sum(prices.values())", "= sum({**prices, **pending}.values())")
 
-# %% 15.10 right: a group
+# %% 15.10 right: uses a group
 solution()
 
-# %% 15.10 right: a condition for each node, and a global parameter
+# %% 15.10 right: uses a condition for each node, and a global parameter
 '''%%writefile src/my_cashier/launch/cashier.launch
 <?xml version="1.0"?>
 <launch>
@@ -755,50 +755,50 @@ solution()
 </launch>
 '''
 
-# %% 15.10 wrong: a tag that is not closed | hint: The file is not valid XML
+# %% 15.10 wrong: does not close a tag | hint: The file is not valid XML
 replace('name="robot" />', 'name="robot" >')
-# %% 15.10 wrong: a fixed argument | hint: An <arg> tag has the attribute "value", so a user cannot change the argument
+# %% 15.10 wrong: gives an argument a fixed value | hint: An <arg> tag has the attribute "value", so a user cannot change the argument
 replace('name="hardware" default=', 'name="hardware" value=')
-# %% 15.10 wrong: no argument | hint: An argument is not declared
+# %% 15.10 wrong: does not declare an argument | hint: An argument is not declared
 replace('  <arg name="hardware" default="true" />\n', "")
-# %% 15.10 wrong: no default | hint: The file does not work without arguments
+# %% 15.10 wrong: omits a default value | hint: The file does not work without arguments
 replace('name="wait" default="2.0"', 'name="wait"')
-# %% 15.10 wrong: yes is no boolean | hint: The value of the attribute "if" has to be true or false
+# %% 15.10 wrong: uses a number as the condition | hint: The value of the attribute "if" has to be true or false
 replace('if="$(arg hardware)"', 'if="$(arg wait)"')
-# %% 15.10 wrong: an unknown substitution | hint: Type `roslaunch --nodes my_cashier cashier.launch` in the terminal, and read the output
+# %% 15.10 wrong: uses an unknown substitution | hint: Type `roslaunch --nodes my_cashier cashier.launch` in the terminal, and read the output
 replace('value="$(arg wait)"', 'value="$(value wait)"')
-# %% 15.10 wrong: always with hardware | hint: With hardware:=false, counter_camera, robot and receipt_printer must not start
+# %% 15.10 wrong: always starts the hardware's nodes | hint: With hardware:=false, counter_camera, robot and receipt_printer must not start
 replace('<group if="$(arg hardware)">', "<group>")
-# %% 15.10 wrong: unless | hint: If the user sets no argument, the nodes of the hardware have to start
+# %% 15.10 wrong: uses unless instead of if | hint: If the user sets no argument, the nodes of the hardware have to start
 replace('<group if=', "<group unless=")
-# %% 15.10 wrong: no till | hint: Compare the names of the nodes with the names in the exercise
+# %% 15.10 wrong: omits the till | hint: Compare the names of the nodes with the names in the exercise
 replace('  <node pkg="my_cashier" type="till.py" name="till" />\n', "")
-# %% 15.10 wrong: another node | hint: which is not in the exercise
+# %% 15.10 wrong: starts an additional node | hint: which is not in the exercise
 replace('</launch>', '  <node pkg="my_cashier" type="ask_customer.py" name="ask_customer" />\n</launch>')
-# %% 15.10 wrong: the nodes of the course | hint: A <node> tag starts the wrong program
+# %% 15.10 wrong: starts the course's till | hint: A <node> tag starts the wrong program
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
-# %% 15.10 wrong: a prefix starts another program | hint: A <node> tag starts the wrong program
+# %% 15.10 wrong: starts another program with launch-prefix | hint: A <node> tag starts the wrong program
 replace('type="till.py"', 'type="till.py" launch-prefix="rosrun course_pkg till"')
-# %% 15.10 wrong: a remapping cuts a connection | hint: The file gives another name to a topic or service of a node
+# %% 15.10 wrong: remaps a service of the till | hint: The file gives another name to a topic or service of a node
 replace('name="till" />', 'name="till"><remap from="till/set" to="nobody" /></node>')
-# %% 15.10 wrong: an argument cuts a connection | hint: The file gives another name to a topic or service of a node
+# %% 15.10 wrong: remaps a topic with the attribute args | hint: The file gives another name to a topic or service of a node
 replace('name="vision" />', 'name="vision" args="customer_seen:=nobody" />')
-# %% 15.10 wrong: no parameter | hint: The node robot_cashier has no parameter "wait"
+# %% 15.10 wrong: omits the parameter | hint: The node robot_cashier has no parameter "wait"
 replace('    <param name="wait" value="$(arg wait)" />\n', "")
-# %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
+# %% 15.10 wrong: sets the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
 replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value="$(arg wait)" />\n  <node pkg="my_cashier" type="vision.py"')
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
-# %% 15.10 wrong: a text as the parameter | hint: The value of the parameter "wait" is a string
+# %% 15.10 wrong: sets the parameter to a string | hint: The value of the parameter "wait" is a string
 replace('value="$(arg wait)"', 'value="$(arg wait)" type="str"')
-# %% 15.10 wrong: another default | hint: If the user sets no argument, the value of "wait" has to be 2 s
+# %% 15.10 wrong: uses another default value | hint: If the user sets no argument, the value of "wait" has to be 2 s
 replace('default="2.0"', 'default="3.0"')
-# %% 15.10 wrong: a fixed value | hint: The parameter always has the same value, even if the user passes another value
+# %% 15.10 wrong: sets the parameter to a fixed value | hint: The parameter always has the same value, even if the user passes another value
 replace('value="$(arg wait)"', 'value="2.0"')
 
-# %% 15.11 right: respawn for four nodes
+# %% 15.11 right: sets respawn for four nodes
 solution()
 
-# %% 15.11 right: with a delay, and output on the screen
+# %% 15.11 right: sets a respawn delay and output on the screen
 '''%%writefile src/my_cashier/launch/cashier.launch
 <launch>
   <arg name="hardware" default="true"/>
@@ -815,14 +815,14 @@ solution()
 </launch>
 '''
 
-# %% 15.11 wrong: the till of the course | hint: A <node> tag starts the wrong program
-based_on("with a delay, and output on the screen")
+# %% 15.11 wrong: starts the course's till | hint: A <node> tag starts the wrong program
+based_on("sets a respawn delay and output on the screen")
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
-# %% 15.11 wrong: no respawn | hint: roslaunch did not start a node again
+# %% 15.11 wrong: does not set respawn | hint: roslaunch did not start a node again
 replace(' respawn="true"', "", times=4)
-# %% 15.11 wrong: a long delay | hint: The attribute respawn_delay lets roslaunch wait too long
+# %% 15.11 wrong: sets a respawn delay of 10 s | hint: The attribute respawn_delay lets roslaunch wait too long
 replace('name="till" respawn="true"', 'name="till" respawn="true" respawn_delay="10"')
-# %% 15.11 wrong: the process id of another process | hint: roslaunch did not start a node again
+# %% 15.11 wrong: reports the process id of another process | hint: roslaunch did not start a node again
 change_node("till", """import subprocess
 from rospy.impl.masterslave import ROSHandler
 
@@ -839,29 +839,29 @@ ROSHandler.getPid = get_pid""")
 launch = package / "launch/cashier.launch"
 launch.write_text(RESPAWNING.replace('name="till" respawn="true"', 'name="till"'))
 
-# %% 15.11 wrong: one node without respawn | hint: roslaunch did not start a node again
+# %% 15.11 wrong: sets no respawn for one node | hint: roslaunch did not start a node again
 replace('name="till" respawn="true"', 'name="till"')
-# %% 15.11 wrong: no valid XML | hint: roslaunch ended. Type
+# %% 15.11 wrong: writes a file that is not valid XML | hint: roslaunch ended. Type
 replace('name="robot" />', 'name="robot" >')
-# %% 15.11 wrong: no vision | hint: Go to the exercise in which you … Go to the exercise in which you
+# %% 15.11 wrong: does not start vision | hint: Go to the exercise in which you … Go to the exercise in which you
 replace('  <node pkg="my_cashier" type="vision.py" name="vision" respawn="true" />\n', "")
-# %% 15.11 wrong: another name | hint: Go to the exercise in which you wrote this node, and run the check of
+# %% 15.11 wrong: gives a node another name | hint: Go to the exercise in which you wrote this node, and run the check of
 replace('name="till"', 'name="cash_register"')
 
-# %% 15.11 wrong: a blind vision | hint: The frames show a customer, but detect_customer does not find a customer
+# %% 15.11 wrong: never sees a customer | hint: The frames show a customer, but detect_customer does not find a customer
 change_node("vision", "vision.sees_customer = lambda frame: False")
 
-# %% 15.11 wrong: no greeting | hint: The detector finds the customer, but no greeting arrived
+# %% 15.11 wrong: publishes no greeting | hint: The detector finds the customer, but no greeting arrived
 change_node("robot_cashier", "robot_cashier.RobotCashier.greet = lambda self, wait: self._over.wait()")
 
-# %% 15.11 wrong: greets again and again | hint: The node greeted one customer more than once
+# %% 15.11 wrong: greets a customer repeatedly | hint: The node greeted one customer more than once
 change_node("robot_cashier", """robot_cashier.RobotCashier._await_departure = lambda self: self._over.wait(0.3)
 robot_cashier.RobotCashier._empty_till = lambda self: None""")
 
-# %% 15.11 wrong: a total that loses items | hint: After two calls of till/set at the same time, the total was not the
+# %% 15.11 wrong: returns the largest price as the total | hint: After two calls of till/set at the same time, the total was not the
 change_node("till", "till.Till.handle_total = lambda self, _: (max(self._cents.values(), default=0), len(self._cents))")
 
-# %% 15.11 wrong: no lock in the till | hint: Two customers called till/set at the same time, and one call failed
+# %% 15.11 wrong: uses no lock in the till | hint: Two customers called till/set at the same time, and one call failed
 change_node("till", """import contextlib
 
 make = till.Till.__init__
@@ -874,7 +874,7 @@ def unlocked(self):
 
 till.Till.__init__ = unlocked""")
 
-# %% 15.11 wrong: the printer's refusal is swallowed | hint: The printer refused a line, but till/set did not refuse the item
+# %% 15.11 wrong: hides the printer's refusal | hint: The printer refused a line, but till/set did not refuse the item
 change_node("till", """class Proxy(till.BoundedProxy):
     def __call__(self, line):
         try:
@@ -885,35 +885,35 @@ change_node("till", """class Proxy(till.BoundedProxy):
 
 till.BoundedProxy = Proxy""")
 
-# %% 15.11 wrong: an item without a name | hint: The till accepted an item without a name
-based_on("no lock in the till")
+# %% 15.11 wrong: accepts an item without a name | hint: The till accepted an item without a name
+based_on("uses no lock in the till")
 replace('change_node("till", """import contextlib\n\nmake = till.Till.__init__', 'change_node("till", """handle_set = till.Till.handle_set')
 replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullcontext()", """def handle(self, request):
     request.item = request.item or "no name"
     return handle_set(self, request)""")
 replace("__init__ = unlocked", "handle_set = handle")
-# %% 15.11 wrong: counts what is refused | hint: A refused item changed the total
-based_on("an item without a name")
+# %% 15.11 wrong: counts a refused item | hint: A refused item changed the total
+based_on("accepts an item without a name")
 replace('request.item = request.item or "no name"\n    return handle_set(self, request)', """try:
         return handle_set(self, request)
     except till.rospy.ServiceException:
         self._cents["refused"] = 5
         raise""")
 
-# %% 15.11 wrong: no reset after a visit | hint: The customer has left, but the till still has items
+# %% 15.11 wrong: does not reset the till after a visit | hint: The customer has left, but the till still has items
 change_node("robot_cashier", "robot_cashier.RobotCashier._empty_till = lambda self: None")
 
-# %% 15.11 wrong: the arm is seldom mirrored | hint: Joint states arrived all the time, but the node published only a few mirror
+# %% 15.11 wrong: mirrors only a few joint states | hint: Joint states arrived all the time, but the node published only a few mirror
 change_node("robot_cashier", """import random
 
 mirror = robot_cashier.RobotCashier.mirror
 robot_cashier.RobotCashier.mirror = lambda self, joints: random.random() < 0.05 and mirror(self, joints)""")
 
-# %% 15.11 wrong: a guess without a camera | hint: No frame came for more than 1 s, but detect_customer accepted a call
+# %% 15.11 wrong: returns an old result without a camera | hint: No frame came for more than 1 s, but detect_customer accepted a call
 change_node("customer_detector", "customer_detector.await_customer = lambda eye, patience: bool(eye._seen)")
 
-# %% 15.11 wrong: silent for ever | hint: New frames came after a pause, but detect_customer still refuses
-based_on("no lock in the till")
+# %% 15.11 wrong: refuses all calls after a pause of the camera | hint: New frames came after a pause, but detect_customer still refuses
+based_on("uses no lock in the till")
 replace('till", """import contextlib', 'customer_detector", """import time')
 replace("make = till.Till.__init__", "import course_pkg.shop.watch as watch\n\nlook = watch.Eye.look")
 replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullcontext()", """def once(self):
@@ -921,8 +921,8 @@ replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullco
         self.dead = True
     return None if hasattr(self, "dead") else look(self)""")
 replace("till.Till.__init__ = unlocked", "watch.Eye.look = once")
-# %% 15.11 wrong: no second start | hint: After all nodes were killed and started again, the next customer was not greeted
-based_on("no lock in the till")
+# %% 15.11 wrong: publishes no greeting after a second start | hint: After all nodes were killed and started again, the next customer was not greeted
+based_on("uses no lock in the till")
 replace("change_node … Till.__init__", 'change_node("robot_cashier", """import os\n\ngreet = robot_cashier.RobotCashier.greet')
 replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullcontext()", """def once(self, wait):
     if os.path.exists("started"):
@@ -931,5 +931,5 @@ replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullco
     greet(self, wait)""")
 replace("till.Till.__init__ = unlocked", "robot_cashier.RobotCashier.greet = once")
 
-# %% 15.11 wrong: vision publishes nothing | hint: The camera publishes frames, but no message arrives on customer_seen
+# %% 15.11 wrong: publishes nothing in vision | hint: The camera publishes frames, but no message arrives on customer_seen
 change_node("vision", "vision.Vision.handle_frame = lambda self, frame: None")

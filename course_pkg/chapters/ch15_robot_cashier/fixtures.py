@@ -1,4 +1,7 @@
-"""The cells before and after an answer of chapter 15 outside of its notebook; see checking/fixtures.py."""
+"""The cells that run before and after an answer of chapter 15 if it is examined without its notebook.
+
+See checking/fixtures.py.
+"""
 
 # %% before
 from pathlib import Path
@@ -28,7 +31,7 @@ RESPAWNING = """\
 
 
 def change_node(name, lines):
-    """Write a launch file, and the course's node `name` with `lines` of Python that add a mistake."""
+    """Write a launch file, and the course's node `name` with additional lines that add a mistake."""
     (package / "launch/cashier.launch").write_text(RESPAWNING)
     module = f"course_pkg.chapters.ch15_robot_cashier.programs.{name}"
     start = f'if __name__ == "__main__":\n    {name}.main()\n'

@@ -1,6 +1,6 @@
 """Example answers of chapter 16; tests/checking/answers/example_answers.py explains the format."""
 
-# %% 16.1 right: checks before each thing
+# %% 16.1 right: checks for a cancellation before each thing
 class Fetcher:
     def __init__(self, name):
         self.server = actionlib.SimpleActionServer(name, FetchAction, execute_cb=self.fetch, auto_start=False)
@@ -15,7 +15,7 @@ class Fetcher:
             self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))
         self.server.set_succeeded(FetchResult(fetched=goal.things))
 
-# %% 16.1 wrong: one thing too many | hint: The result is too large by one
+# %% 16.1 wrong: counts one thing too many | hint: The result is too large by one
 replace("fetched=goal.things", "fetched=goal.things + 1")
 
 # %% 16.1 right: counts in the result, and checks after each thing
@@ -40,7 +40,7 @@ class Fetcher(object):
         else:
             self._as.set_succeeded(result)
 
-# %% 16.1 right: accepts goals in its own thread
+# %% 16.1 right: accepts goals in a separate thread
 import threading
 
 
@@ -63,73 +63,73 @@ class Fetcher:
 
 # %% 16.1 wrong: never checks for a cancellation | hint: Call is_preempt_requested() before the robot fetches
 replace("\n            if self.server … return", "")
-# %% 16.1 wrong: a count for all goals | hint: The result also counts the things of the previous goal
+# %% 16.1 wrong: uses one count for all goals | hint: The result also counts the things of the previous goal
 replace("        self.server.start()", "        self.server.start()\n        self.fetched = 0")
 replace("for fetched in range(goal.things)", "for _ in range(goal.things)")
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=self.fetched))")
 replace("            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "            self.fetched += 1\n            self.server.publish_feedback(FetchFeedback(fetched=self.fetched))")
 replace("fetched=goal.things", "fetched=self.fetched")
-# %% 16.1 wrong: a count that only a complete goal sets to 0 | hint: The result also counts the things of the previous goal
-based_on("a count for all goals")
+# %% 16.1 wrong: resets the count only after a complete goal | hint: The result also counts the things of the previous goal
+based_on("uses one count for all goals")
 replace("for _ in range(goal.things)", "while self.fetched < goal.things")
 replace("set_succeeded(FetchResult(fetched=self.fetched))", "set_succeeded(FetchResult(fetched=self.fetched))\n        self.fetched = 0")
 # %% 16.1 wrong: returns the result, as a service does | hint: The function returned, but the goal has no end
 replace("self.server.set_preempted(FetchResult(fetched=fetched))\n                return", "return FetchResult(fetched=fetched)")
 replace("self.server.set_succeeded(FetchResult(fetched=goal.things))", "return FetchResult(fetched=goal.things)")
-# %% 16.1 wrong: not started | hint: Pass `name`, the argument of your constructor, to SimpleActionServer, and
+# %% 16.1 wrong: does not start the action server | hint: Pass `name`, the argument of your constructor, to SimpleActionServer, and
 replace("\n        self.server.start()", "")
-# %% 16.1 wrong: a fixed action name | hint: Pass `name`, the argument of your constructor, to
+# %% 16.1 wrong: uses a fixed action name | hint: Pass `name`, the argument of your constructor, to
 replace("Server(name", 'Server("/my_fetch"')
-# %% 16.1 wrong: succeeds although it was cancelled | hint: The client cancelled the goal, so SUCCEEDED is the wrong state
+# %% 16.1 wrong: calls set_succeeded for a cancelled goal | hint: The client cancelled the goal, so SUCCEEDED is the wrong state
 replace("set_preempted", "set_succeeded")
-# %% 16.1 wrong: aborts a cancelled goal | hint: the function called set_aborted, which means that the robot failed
+# %% 16.1 wrong: calls set_aborted for a cancelled goal | hint: the function called set_aborted, which means that the robot failed
 replace("set_preempted", "set_aborted")
-# %% 16.1 wrong: no feedback | hint: No feedback arrived
+# %% 16.1 wrong: publishes no feedback | hint: No feedback arrived
 replace("\n            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "")
-# %% 16.1 wrong: counts from 0 | hint: The feedback is too small by one, because range() starts at 0
+# %% 16.1 wrong: counts the things in the feedback from 0 | hint: The feedback is too small by one, because range() starts at 0
 replace("fetched + 1", "fetched")
-# %% 16.1 wrong: an empty result | hint: The field `fetched` of the result is 0
+# %% 16.1 wrong: returns empty results | hint: The field `fetched` of the result is 0
 replace("(FetchResult(fetched=fetched))", "()")
 replace("(FetchResult(fetched=goal.things))", "()")
-# %% 16.1 wrong: takes no time | hint: The goal ended too early
+# %% 16.1 wrong: does not wait for each thing | hint: The goal ended too early
 replace("return\n            time.sleep(goal.seconds)", "return")
-# %% 16.1 wrong: the missing things when it is cancelled | hint: The result of the cancelled goal is wrong
+# %% 16.1 wrong: returns the number of missing things for a cancelled goal | hint: The result of the cancelled goal is wrong
 replace("(fetched=fetched)", "(fetched=goal.things - fetched)")
-# %% 16.1 wrong: feedback before the thing | hint: The feedback came before the robot had fetched the thing
+# %% 16.1 wrong: publishes feedback before the thing is fetched | hint: The feedback came before the robot had fetched the thing
 replace("""time.sleep(goal.seconds)
             self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))""", """self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))
             time.sleep(goal.seconds)""")
 # %% 16.1 wrong: continues after the cancellation | hint: The robot continued after set_preempted, because set_preempted does not end your function
 replace("\n                return", "")
-# %% 16.1 wrong: succeeds in the loop | hint: The goal ended after the first thing, because set_succeeded ends the goal
+# %% 16.1 wrong: calls set_succeeded in the loop | hint: The goal ended after the first thing, because set_succeeded ends the goal
 replace("+ 1))\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", """+ 1))
             self.server.set_succeeded(FetchResult(fetched=fetched + 1))""")
-# %% 16.1 wrong: checks after the last thing, too | hint: Call set_succeeded after the last thing, and check for a cancellation only
+# %% 16.1 wrong: also checks for a cancellation after the last thing | hint: Call set_succeeded after the last thing, and check for a cancellation only
 replace("        self.server.set_succeeded", """        if self.server.is_preempt_requested():
             self.server.set_preempted(FetchResult(fetched=goal.things))
             return
         self.server.set_succeeded""")
-# %% 16.1 wrong: a second for each | hint: The duration of the robot's work is wrong
+# %% 16.1 wrong: always takes one second for each thing | hint: The duration of the robot's work is wrong
 replace("goal.seconds", "1")
-# %% 16.1 wrong: a fifth of a second for each | hint: The duration of the robot's work is wrong
+# %% 16.1 wrong: always takes 0.2 s for each thing | hint: The duration of the robot's work is wrong
 replace("goal.seconds", "0.2")
-# %% 16.1 wrong: the time of the chapter's first goal | hint: The duration of the robot's work is wrong
+# %% 16.1 wrong: always takes 0.05 s for each thing | hint: The duration of the robot's work is wrong
 replace("goal.seconds", "0.05")
-# %% 16.1 wrong: the last number of the loop | hint: The result is too small by one, because range() starts at 0
+# %% 16.1 wrong: returns the last number of the loop | hint: The result is too small by one, because range() starts at 0
 replace("(fetched=goal.things)", "(fetched=fetched)")
-# %% 16.1 wrong: feedback at the end only | hint: Only one feedback message arrived, at the end
+# %% 16.1 wrong: publishes feedback only at the end | hint: Only one feedback message arrived, at the end
 replace("\n            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "\n        self.server.publish_feedback(FetchFeedback(fetched=goal.things))")
-# %% 16.1 wrong: empty feedback | hint: The field `fetched` is 0 in each feedback
+# %% 16.1 wrong: publishes empty feedback | hint: The field `fetched` is 0 in each feedback
 replace("FetchFeedback(fetched=fetched + 1)", "FetchFeedback()")
-# %% 16.1 wrong: all feedback at the end | hint: All feedback messages arrived at the end
+# %% 16.1 wrong: publishes all feedback at the end | hint: All feedback messages arrived at the end
 replace("time.sleep(goal.seconds)", "time.sleep(goal.seconds)\n        for fetched in range(goal.things):")
-# %% 16.1 wrong: an empty result when it is cancelled | hint: The field `fetched` is 0 in the result of the cancelled goal
+# %% 16.1 wrong: returns an empty result for a cancelled goal | hint: The field `fetched` is 0 in the result of the cancelled goal
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted()")
-# %% 16.1 wrong: the number of the goal when it is cancelled | hint: The result is 80, but this is the number
+# %% 16.1 wrong: returns the requested number for a cancelled goal | hint: The result is 80, but this is the number
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=goal.things))")
-# %% 16.1 wrong: a misspelt field | hint: The function raised an exception
+# %% 16.1 wrong: misspells a field | hint: The function raised an exception
 replace("FetchFeedback(fetched", "FetchFeedback(count")
-# %% 16.1 wrong: does not count | hint: Check that the loop ends
+# %% 16.1 wrong: does not count the things | hint: Check that the loop ends
 based_on("counts in the result, and checks after each thing")
 replace("            result.fetched += 1\n", "")
 
@@ -144,7 +144,7 @@ def fetch_within(name, things, seconds):
         client.wait_for_result(rospy.Duration(2))
     return client.get_result().fetched
 
-# %% 16.2 right: by send_goal_and_wait
+# %% 16.2 right: uses send_goal_and_wait
 def fetch_within(name, things, seconds):
     robot = actionlib.SimpleActionClient(name, FetchAction)
     if robot.wait_for_server(rospy.Duration.from_sec(2.0)):
@@ -160,53 +160,53 @@ replace("cancel_goal()", "cancel_all_goals()")
 replace("if not client.wait_for_result … Duration(2))", "client.wait_for_result()")
 # %% 16.2 wrong: sleeps for the whole time | hint: The function still waited after the result had arrived
 replace("if not client.wait_for_result(rospy.Duration(seconds)):", "time.sleep(seconds)\n    if client.get_result() is None:")
-# %% 16.2 wrong: waits for ever after the cancellation | hint: Wait at most 2 s after cancel_goal()
+# %% 16.2 wrong: waits without a limit after the cancellation | hint: Wait at most 2 s after cancel_goal()
 replace("client.wait_for_result(rospy.Duration(2))", "client.wait_for_result()")
-# %% 16.2 wrong: four seconds after the cancellation | hint: Wait at most 2 s after cancel_goal()
+# %% 16.2 wrong: waits four seconds after the cancellation | hint: Wait at most 2 s after cancel_goal()
 replace("client.wait_for_result(rospy.Duration(2))", "client.wait_for_result(rospy.Duration(4.3))")
-# %% 16.2 wrong: whole seconds | hint: Pass a rospy.Duration above 0
+# %% 16.2 wrong: rounds the time limit down to whole seconds | hint: Pass a rospy.Duration above 0
 replace("rospy.Duration(seconds)", "rospy.Duration(int(seconds))")
-# %% 16.2 wrong: gives up, and cancels nothing | hint: get_result() returned None, because the goal had not ended
+# %% 16.2 wrong: does not cancel the goal | hint: get_result() returned None, because the goal had not ended
 replace("if not client.wait_for_result … Duration(2))", "client.wait_for_result(rospy.Duration(seconds))")
-# %% 16.2 wrong: returns nothing when the time is over | hint: The function did not cancel the goal
+# %% 16.2 wrong: returns None without cancelling when the time is over | hint: The function did not cancel the goal
 replace("""if not client.wait_for_result(rospy.Duration(seconds)):
         client.cancel_goal()
         client.wait_for_result(rospy.Duration(2))
     """, "if client.wait_for_result(rospy.Duration(seconds)):\n        ")
-# %% 16.2 wrong: does not wait for the end after the cancellation | hint: There is no result before the goal has ended
+# %% 16.2 wrong: sleeps only 0.15 s after the cancellation | hint: There is no result before the goal has ended
 replace("client.wait_for_result(rospy.Duration(2))", "time.sleep(0.15)")
-# %% 16.2 wrong: a plain number of seconds | hint: actionlib does not accept a plain number of seconds
+# %% 16.2 wrong: passes a plain number of seconds | hint: actionlib does not accept a plain number of seconds
 replace("rospy.Duration(seconds)", "seconds")
-# %% 16.2 wrong: waits for a server for ever | hint: No server exists, but the function waits without a time
+# %% 16.2 wrong: waits for a server without a limit | hint: No server exists, but the function waits without a time
 replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server()")
-# %% 16.2 wrong: returns the number of the goal | hint: The function returned the field `things` of the goal
+# %% 16.2 wrong: returns the requested number | hint: The function returned the field `things` of the goal
 replace("        client.wait_for_result(rospy.Duration(2))\n    return client.get_result().fetched", "    return things")
-# %% 16.2 wrong: does not wait for the robot | hint: The goal did not arrive at the server, because the
+# %% 16.2 wrong: does not wait for the server | hint: The goal did not arrive at the server, because the
 replace("\n    if not client.wait_for_server(rospy.Duration(2)):\n        return None", "")
 replace("return client.get_result().fetched", "result = client.get_result()\n    return result.fetched if result else None")
-# %% 16.2 wrong: no seconds | hint: The field `seconds` of the goal is not 0.1
+# %% 16.2 wrong: does not set the field seconds | hint: The field `seconds` of the goal is not 0.1
 replace("things, seconds=0.1", "things")
-# %% 16.2 wrong: five seconds in any case | hint: The time limit is wrong
+# %% 16.2 wrong: always uses a time limit of 4.5 s | hint: The time limit is wrong
 replace("(seconds)", "(4.5)")
-# %% 16.2 wrong: cancels early | hint: The time limit is wrong
+# %% 16.2 wrong: always uses a time limit of 0.3 s | hint: The time limit is wrong
 replace("(seconds)", "(0.3)")
-# %% 16.2 wrong: five seconds for a server | hint: The function waited too long for a server
+# %% 16.2 wrong: waits five seconds for a server | hint: The function waited too long for a server
 replace("(rospy.Duration(2)):", "(rospy.Duration(5)):")
-# %% 16.2 wrong: four seconds for a server | hint: The function waited too long for a server
+# %% 16.2 wrong: waits four seconds for a server | hint: The function waited too long for a server
 replace("(rospy.Duration(2)):", "(rospy.Duration(4)):")
-# %% 16.2 wrong: hardly waits for a robot | hint: The server started 0.6 s … The server started
+# %% 16.2 wrong: waits only 0.4 s for a server | hint: The server started 0.6 s … The server started
 replace("(rospy.Duration(2)):", "(rospy.Duration(0.4)):")
-# %% 16.2 wrong: the whole result | hint: The function returned the whole result
+# %% 16.2 wrong: returns the whole result | hint: The function returned the whole result
 replace(".get_result().fetched", ".get_result()")
-# %% 16.2 wrong: things is left out | hint: The field `things` of the goal is 0
+# %% 16.2 wrong: does not set the field things | hint: The field `things` of the goal is 0
 replace("things=things, seconds", "seconds")
 # %% 16.2 wrong: reads the result directly after the cancellation | hint: The function read the result before the goal
 replace("        client.wait_for_result(rospy.Duration(2))\n    return client.get_result().fetched", "    result = client.get_result()\n    return result.fetched if result else 0")
-# %% 16.2 wrong: None after the cancellation | hint: The function returned None
+# %% 16.2 wrong: returns None after the cancellation | hint: The function returned None
 replace("        client.wait_for_result(rospy.Duration(2))\n", "        return None\n")
-# %% 16.2 wrong: None for an aborted goal | hint: The robot aborted the goal, but the function did not return
+# %% 16.2 wrong: returns None for an aborted goal | hint: The robot aborted the goal, but the function did not return
 replace("    return client.get_result()", "    if client.get_state() == actionlib.GoalStatus.ABORTED:\n        return None\n    return client.get_result()")
-# %% 16.2 wrong: sends the goal without a robot | hint: No server started in time, so wait_for_server returned False
+# %% 16.2 wrong: sends the goal although there is no server | hint: No server started in time, so wait_for_server returned False
 replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server(rospy.Duration(2))")
 
 # %% 16.3 right: checks the type first
@@ -216,7 +216,7 @@ def speed_of(robot, default):
         return default
     return speed
 
-# %% 16.3 right: by an exception
+# %% 16.3 right: catches exceptions
 def speed_of(robot, default):
     try:
         speed = rospy.get_param("/" + robot + "/speed")
@@ -225,18 +225,18 @@ def speed_of(robot, default):
         return default
     return default if isinstance(speed, (bool, str)) or number <= 0 else number
 
-# %% 16.3 right: from the cache
-based_on("by an exception")
+# %% 16.3 right: reads the parameter from the cache
+based_on("catches exceptions")
 replace("speed = rospy … ValueError):", 'speed = rospy.get_param_cached(f"/{robot}/speed")\n    except KeyError:')
 replace("default if isinstance(speed, (bool, str)) or number <= 0 else number", "speed if type(speed) in (int, float) and speed > 0 else default")
-# %% 16.3 wrong: no default | hint: If the parameter is not set, get_param raises a KeyError
+# %% 16.3 wrong: ignores the default value | hint: If the parameter is not set, get_param raises a KeyError
 replace("speed = rospy … return speed", 'return rospy.get_param(f"/{robot}/speed")')
-# %% 16.3 wrong: sets the default | hint: The function has set the parameter
+# %% 16.3 wrong: sets the parameter to the default value | hint: The function has set the parameter
 replace("    if isinstance", '    rospy.set_param(f"/{robot}/speed", speed)\n    if isinstance')
-# %% 16.3 wrong: a fixed name | hint: The name of the parameter is wrong
+# %% 16.3 wrong: reads a parameter with a fixed name | hint: The name of the parameter is wrong
 replace("speed = rospy … return speed", 'return rospy.get_param("~speed", default)')
 
-# %% 16.3 wrong: remembers the first | hint: The parameter has changed, but the function returned the old value
+# %% 16.3 wrong: stores the first value | hint: The parameter has changed, but the function returned the old value
 known = {}
 
 def speed_of(robot, default):
@@ -248,36 +248,36 @@ def speed_of(robot, default):
     return known[robot]
 
 # %% 16.3 wrong: does not check the value | hint: The value of the parameter was a string, not a number
-based_on("a fixed name")
+based_on("reads a parameter with a fixed name")
 replace('"~speed"', 'f"/{robot}/speed"')
 # %% 16.3 wrong: compares a string with 0 | hint: Python cannot compare a string or a list with a number
 replace("if isinstance … return speed", "return speed if speed > 0 else default")
-# %% 16.3 wrong: takes every number | hint: The value was negative
+# %% 16.3 wrong: accepts every number | hint: The value was negative
 based_on("compares a string with 0")
 replace("speed > 0", "isinstance(speed, (int, float)) and speed is not True")
-# %% 16.3 wrong: 0 is a speed | hint: The value was 0, but a speed has to be above 0
+# %% 16.3 wrong: accepts the speed 0 | hint: The value was 0, but a speed has to be above 0
 based_on("compares a string with 0")
 replace("speed > 0", "isinstance(speed, (int, float)) and speed is not True and speed >= 0")
-# %% 16.3 wrong: excludes a string only | hint: The value of the parameter was a list
+# %% 16.3 wrong: refuses only strings | hint: The value of the parameter was a list
 replace("if isinstance(speed, bool) or not isinstance(speed, (int, float)) or speed <= 0:", """if isinstance(speed, str):
         return default
     if not isinstance(speed, list) and speed <= 0:""")
-# %% 16.3 wrong: no whole numbers | hint: The function did not return the int 2
+# %% 16.3 wrong: refuses whole numbers | hint: The function did not return the int 2
 replace("(int, float)", "float")
-# %% 16.3 wrong: a fixed default | hint: The parameter is not set
+# %% 16.3 wrong: uses a fixed default value | hint: The parameter is not set
 replace(", default)\n", ", 1.0)\n")
-# %% 16.3 wrong: does not catch what float() raises | hint: float() raises a ValueError for a string that does
-based_on("by an exception")
+# %% 16.3 wrong: does not catch the ValueError of float() | hint: float() raises a ValueError for a string that does
+based_on("catches exceptions")
 replace(", ValueError", "")
-# %% 16.3 wrong: takes a string that contains a number | hint: The value of the parameter was a string, not a number
-based_on("by an exception")
+# %% 16.3 wrong: accepts a string that contains a number | hint: The value of the parameter was a string, not a number
+based_on("catches exceptions")
 replace("(bool, str)", "bool")
-# %% 16.3 wrong: takes True for a speed | hint: The value was True, which is an int with the value 1 in Python
+# %% 16.3 wrong: accepts True as a speed | hint: The value was True, which is an int with the value 1 in Python
 replace("isinstance(speed, bool) or not", "not")
 
-# %% 16.4 right: a class
+# %% 16.4 right: uses a class
 solution()
-# %% 16.4 right: functions, a timer and spin
+# %% 16.4 right: uses functions, a timer and spin
 replace("capacity.", "capacity.\nimport time\n")
 replace(", SetBoolResponse", "\n\ncharge = 100")
 replace("class ParcelRobot … goal.things))", 'def door(request):\n    return True, "open" if request.data else "closed"')
@@ -305,76 +305,76 @@ server = actionlib.SimpleActionServer("deliver", FetchAction, deliver, False)
 server.start()
 timer = rospy.Timer(rospy.Duration(0.2), lambda event: publisher.publish(charge))
 rospy.spin()""")
-# %% 16.4 wrong: the charge falls at the end | hint: The charge did not change for the parcels of a cancelled delivery
+# %% 16.4 wrong: reduces the charge only at the end | hint: The charge did not change for the parcels of a cancelled delivery
 replace("            self.charge -= 1\n", "")
 replace("        self.server.set_succeeded", "        self.charge -= goal.things\n        self.server.set_succeeded")
-# %% 16.4 wrong: the charge falls at the start | hint: The charge changed for parcels that were not delivered
+# %% 16.4 wrong: reduces the charge at the start | hint: The charge changed for parcels that were not delivered
 replace("            self.charge -= 1\n", "")
 replace("        for delivered in", "        self.charge -= goal.things\n        for delivered in")
-# %% 16.4 wrong: a full battery for each delivery | hint: A new delivery set the charge to 100 again
+# %% 16.4 wrong: sets the charge to 100 at each delivery | hint: A new delivery set the charge to 100 again
 replace("        for delivered in", "        self.charge = 100.0\n        for delivered in")
 # %% 16.4 wrong: continues after set_aborted | hint: The function continued after set_aborted, because set_aborted does not end your function
 replace('can carry")\n            return', 'can carry")')
-# %% 16.4 wrong: a service for the battery | hint: Several programs need each new value of the battery, but they send no requests
+# %% 16.4 wrong: uses a service for the battery | hint: Several programs need each new value of the battery, but they send no requests
 replace("from std_srvs.srv import SetBool, SetBoolResponse", "from std_srvs.srv import SetBool, SetBoolResponse, Trigger")
 replace('rospy.Publisher("battery", Float32, queue_size=1)', 'rospy.Service("battery", Trigger, lambda request: (True, str(self.charge)))')
 replace("robot.battery.publish(robot.charge)\n        ", "")
-# %% 16.4 wrong: a topic for the door | hint: The door moves only for a short time, and the client has to know
+# %% 16.4 wrong: uses a topic for the door | hint: The door moves only for a short time, and the client has to know
 replace("import Float32", "import Bool, Float32")
 replace('rospy.Service("door", SetBool', 'rospy.Subscriber("door", Bool')
-# %% 16.4 wrong: a service for the delivery | hint: The client wants progress reports, and it wants to cancel the delivery
+# %% 16.4 wrong: uses a service for the delivery | hint: The client wants progress reports, and it wants to cancel the delivery
 replace("""self.server = actionlib.SimpleActionServer("deliver", FetchAction, execute_cb=self.deliver, auto_start=False)
         self.server.start()""", 'self.server = rospy.Service("deliver", SetBool, self.move_door)')
-# %% 16.4 wrong: a service for the capacity | hint: The user sets "capacity" when the robot starts, and clients never
+# %% 16.4 wrong: uses a service for the capacity | hint: The user sets "capacity" when the robot starts, and clients never
 replace("import SetBool, SetBoolResponse", "import SetBool, SetBoolResponse, Trigger")
 replace('self.capacity = rospy.get_param("~capacity", 5)', 'self.capacity = 5\n        rospy.Service("capacity", Trigger, lambda request: (True, "5"))')
-# %% 16.4 wrong: absolute names | hint: The name is not in the namespace of the robot
+# %% 16.4 wrong: uses an absolute topic name | hint: The name is not in the namespace of the robot
 replace('"battery"', '"/battery"')
-# %% 16.4 wrong: another name | hint: The node offers nothing with this name
+# %% 16.4 wrong: uses another name for the action | hint: The node offers nothing with this name
 replace('"deliver"', '"delivery"')
 # %% 16.4 wrong: misspells a library | hint: The program has ended
 replace("import actionlib\n", "import action_lib\n")
-# %% 16.4 wrong: no pause | hint: The battery does not publish five values per second
+# %% 16.4 wrong: publishes without a pause | hint: The battery does not publish five values per second
 replace("\n        rate.sleep()", "")
-# %% 16.4 wrong: a fraction for the charge | hint: Publish the charge in percent
+# %% 16.4 wrong: publishes the charge as a fraction | hint: Publish the charge in percent
 replace("self.charge = 100.0", "self.charge = 1.0")
-# %% 16.4 wrong: reports on and off | hint: The field `message` is wrong
+# %% 16.4 wrong: returns the messages "on" and "off" | hint: The field `message` is wrong
 replace('"open" if request.data else "closed"', '"on" if request.data else "off"')
-# %% 16.4 wrong: success only if it opens | hint: The field `success` is False, although the robot has moved the door
+# %% 16.4 wrong: returns success=True only if the door opens | hint: The field `success` is False, although the robot has moved the door
 replace("success=True", "success=request.data")
-# %% 16.4 wrong: no state at the end | hint: Call set_succeeded at the end of the delivery
+# %% 16.4 wrong: does not call set_succeeded | hint: Call set_succeeded at the end of the delivery
 replace("\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", "")
-# %% 16.4 wrong: a misspelt field | hint: The function that delivers the parcels raised an exception
+# %% 16.4 wrong: misspells a field | hint: The function that delivers the parcels raised an exception
 replace("FetchFeedback(fetched", "FetchFeedback(delivered")
-# %% 16.4 wrong: counts from 0 | hint: The feedback is wrong
+# %% 16.4 wrong: counts the parcels in the feedback from 0 | hint: The feedback is wrong
 replace("delivered + 1", "delivered")
-# %% 16.4 wrong: an empty result | hint: The result is wrong
+# %% 16.4 wrong: returns an empty result | hint: The result is wrong
 replace("set_succeeded(FetchResult(fetched=goal.things))", "set_succeeded()")
-# %% 16.4 wrong: publishes in the loop of the delivery | hint: The battery sent no values during the delivery
+# %% 16.4 wrong: publishes no charge during a delivery | hint: The battery sent no values during the delivery
 replace("robot.battery.publish(robot.charge)", "if not robot.server.is_active():\n            robot.battery.publish(robot.charge)")
-# %% 16.4 wrong: the charge stays | hint: The charge did not change. Subtract 1
+# %% 16.4 wrong: does not reduce the charge | hint: The charge did not change. Subtract 1
 replace("            self.charge -= 1\n", "")
-# %% 16.4 wrong: one percent for all | hint: The charge changed only once during the whole delivery
+# %% 16.4 wrong: reduces the charge only once for each delivery | hint: The charge changed only once during the whole delivery
 replace("            self.charge -= 1\n", "")
 replace("        self.server.set_succeeded", "        self.charge -= 1\n        self.server.set_succeeded")
-# %% 16.4 wrong: cannot be cancelled | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted
+# %% 16.4 wrong: never checks for a cancellation | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted
 replace("\n            if self.server … return", "")
-# %% 16.4 wrong: no delivery if a parcel takes long | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted
+# %% 16.4 wrong: does not deliver if a parcel takes long | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted
 replace("        for ", "        if goal.seconds > 0.25:\n            self.server.set_succeeded(FetchResult(fetched=goal.things))\n            return\n        for ")
-# %% 16.4 wrong: an empty result of a cancelled delivery | hint: The result of a cancelled delivery is wrong
+# %% 16.4 wrong: returns an empty result for a cancelled delivery | hint: The result of a cancelled delivery is wrong
 replace("set_preempted(FetchResult(fetched=delivered))", "set_preempted()")
 # %% 16.4 wrong: does not check the capacity | hint: Compare goal.things with the parameter ~capacity
 replace("\n        if goal.things … return", "")
-# %% 16.4 wrong: always carries five | hint: The delivery was not aborted, although it has more parcels than
+# %% 16.4 wrong: uses a fixed capacity of 5 | hint: The delivery was not aborted, although it has more parcels than
 replace('rospy.get_param("~capacity", 5)', "5")
-# %% 16.4 wrong: checks the capacity too late | hint: Compare goal.things with the capacity before the loop
+# %% 16.4 wrong: checks the capacity in the loop | hint: Compare goal.things with the capacity before the loop
 replace("if goal.things … goal.things):", """for delivered in range(goal.things):
             if delivered == self.capacity:
                 self.server.set_aborted(FetchResult(fetched=0))
                 return""")
-# %% 16.4 wrong: counts parcels that it does not deliver | hint: The robot delivered no parcel, so the result has to be 0
+# %% 16.4 wrong: returns the number of refused parcels | hint: The robot delivered no parcel, so the result has to be 0
 replace("set_aborted(FetchResult(fetched=0)", "set_aborted(FetchResult(fetched=goal.things)")
-# %% 16.4 wrong: a pause before it aborts | hint: Compare goal.things with the capacity before the loop
+# %% 16.4 wrong: pauses before it aborts the delivery | hint: Compare goal.things with the capacity before the loop
 replace("            self.server.set_aborted", "            rospy.sleep(goal.seconds)\n            self.server.set_aborted")
-# %% 16.4 wrong: one parcel less | hint: The robot refused an allowed delivery
+# %% 16.4 wrong: refuses a delivery of exactly the capacity | hint: The robot refused an allowed delivery
 replace("goal.things > self.capacity", "goal.things >= self.capacity")

@@ -22,7 +22,9 @@ COLOUR = re.compile(r"\x1b\[\d*m")
 
 
 class Folder:
-    """A folder with copies of the student's files and with the check's own files; deleted after the check.
+    """A folder with copies of the student's files and with the check's own files.
+
+    The folder is deleted after the check.
 
     Before each command, the function `doing` is called with the text of the command.
     """
@@ -38,7 +40,7 @@ class Folder:
         self.only = ""
 
     def command(self, *argv: str, within: float = 10.0, worded: str = "") -> Finished:
-        """Run a command in this folder, for at most `within` s, or longer on a busy machine.
+        """Run a command in this folder; the time limit is `within` (s), or longer on a busy machine.
 
         The command "python" starts the kernel's own interpreter.
 
@@ -67,7 +69,7 @@ class Running:
         self._channel = channel
         self._number = number
         self._only = only
-        self.other = ""  # The name of another program than the only allowed program, found by examine().
+        self.other = ""  # This is the name of a forbidden program that examine() has found, or "".
         self.show = show  # After a call of show(), reports show this command as the last command.
 
     @property
@@ -82,7 +84,7 @@ class Running:
         return isinstance(ports, list) and port_of(uri) in ports
 
     def examine(self) -> None:
-        """Look at the files that the processes of the command execute; keep the name of a forbidden one."""
+        """Examine the files that the processes of the command execute; store the name of a forbidden file."""
         if self._only and not self.other:
             reply = self._channel.ask("programs", timeout=at_this_load(SLACK), process=self._number)
             programs = reply.get("programs")
@@ -109,9 +111,11 @@ class Running:
 
 
 def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) -> bool:
-    """Wait up to `within` s until `condition` holds for the graph of the master at `uri`.
+    """Wait until the function `condition` accepts the graph of the master at the address `uri`.
 
-    Return whether `condition` holds.
+    The maximum waiting time is `within` (s).
+
+    Return whether the function has accepted the graph.
 
     The master may start during the wait.
     """
@@ -125,7 +129,7 @@ def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) ->
 
 
 def telling_line(printed: str) -> str:
-    """Return the last line of `printed` that contains an error; without such a line, return the last line.
+    """Return the last line of `printed` that contains an error; if there is none, return the last line.
 
     Colour codes and the path of the current folder are removed.
     """

@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from threading import Thread
 from typing import IO
 
 from course_pkg.checking.plain_values import Reply
@@ -39,7 +40,7 @@ class CommandFolders:
         self._running: list[_Running] = []
 
     def folder(self, files: Sequence[str], texts: Mapping[str, str]) -> Reply:
-        """Make a folder with copies of the student's files and folders, and with the check's `texts`."""
+        """Make a folder with copies of the student's files and folders, and with the check's own texts."""
         self._root = self._root or self._open.enter_context(temporary_folder("course-run-"))
         folder = self._root / str(len(self._folders))
         folder.mkdir()
@@ -53,7 +54,7 @@ class CommandFolders:
         return {"folder": len(self._folders) - 1}
 
     def run(self, argv: Sequence[str], folder: int, within: float) -> Reply:
-        """Run a command for at most `within` s."""
+        """Run a command; the time limit is `within` (s)."""
         return _finished(_command(argv), self._folders[folder], within)
 
     def start(self, argv: Sequence[str], folder: int) -> Reply:
@@ -95,6 +96,12 @@ class _Running:
         in_folder = ["sh", "-c", 'cd "$0" && exec "$@"', str(folder), *command]
         self._process = SupervisedProcess(in_folder, output=self._output, env=_environment(folder))
         self._end: Reply | None = None
+        self._ended = 0.0  # The time at which the command ended (s, time.monotonic()).
+        Thread(target=self._wait, daemon=True).start()
+
+    def _wait(self) -> None:
+        self._process.wait()
+        self._ended = time.monotonic()
 
     @property
     def status(self) -> int | None:
@@ -119,8 +126,10 @@ class _Running:
         if self._end is None:
             status = self.status
             self._process.end(GRACE)
-            took = time.monotonic() - self._started
-            self._end = {"status": status, "out": _text(self._output), "err": "", "took": took}
+            now = time.monotonic()
+            ended = self._ended or now
+            self._end = {"status": status, "out": _text(self._output), "err": ""}
+            self._end.update(took=ended - self._started, ago=now - ended)
             self._output.close()
         return self._end
 

@@ -41,17 +41,17 @@ class PrintedText(io.TextIOBase):
         self.text = ""
 
     def writable(self) -> bool:
-        """Return True."""
+        """Return True, because this object accepts text."""
         return True
 
     def write(self, text: str) -> int:
-        """Store `text`; the total length is limited to PRINTED characters."""
+        """Store the text; the total length is limited to PRINTED characters."""
         self.text += text[: max(PRINTED - len(self.text), 0)]
         return len(text)
 
 
 class KernelAgent:
-    """Replies to the check runner's requests about the names in `namespace` and the files in `folder`."""
+    """Replies to the check runner's requests about names in the kernel and about the student's files."""
 
     def __init__(
         self,
@@ -108,7 +108,7 @@ class KernelAgent:
         return there if there.exists() and not here.exists() else here
 
     def _find(self, name: str) -> Value:
-        """Return the value of `name`; `name` may be a dotted name, such as "robot.speed".
+        """Return the value of the name `name`, which may be a dotted name, such as "robot.speed".
 
         A student's name cannot replace a name that the check has prepared.
         """
@@ -163,7 +163,7 @@ class KernelAgent:
         return {"error": result.get("error")}
 
     def _place(self, name: str, port: int, key: str, item: dict[str, Json]) -> Reply:
-        """Define `name` as a proxy for an object of the check runner."""
+        """Define the name `name` as a proxy for an object of the check runner."""
         if self._proxies is None:
             self._proxies = ObjectProxies(port, key)
         self._prepared[name] = self._proxies.proxy(item)
@@ -172,7 +172,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`; by default, it prints to the streams from the start of rospy."""
+    """Let rospy's log print to `stream`; otherwise, it prints to the streams at the start of rospy."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers
@@ -206,7 +206,7 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
 
 def _described(error: BaseException) -> Json:
     called = traceback.walk_tb(error.__traceback__)
-    # Use only lines in cells: the cells of the notebook run in the module `__main__`, and no other code does.
+    # Use only the lines of cells. The module of a cell is `__main__`, and no other code has this module.
     lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]
     return {
         "type": _class_name(type(error)),
@@ -217,7 +217,7 @@ def _described(error: BaseException) -> Json:
 
 
 def _class_name(cls: type) -> str:
-    """Return the name of a class; if a class of Python or rospy has this name, add the module of `cls`."""
+    """Return the name of a class, with its module if another class of Python or rospy has the same name."""
     name = cls.__name__
     known = BUILT_IN.get(name) or getattr(sys.modules.get("rospy"), name, cls)
     return name if known is cls else f"{cls.__module__}.{name}"

@@ -99,7 +99,7 @@ class ObjectProxies:
             connection.close()
 
     def _error(self, name: str) -> type[Exception]:
-        """Return the built-in exception class with this name, or a new class."""
+        """Return the built-in exception class with this name; if there is none, return a new class."""
         known = getattr(builtins, name, None)
         if isinstance(known, type) and issubclass(known, Exception):
             return known

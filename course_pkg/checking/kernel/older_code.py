@@ -28,7 +28,7 @@ class OlderCode:
         self._later_run = later_run
 
     def of_value(self, name: str, value: Value) -> str:
-        """Return an instruction for the student if `value` is older than its cell, or ""."""
+        """Return an instruction for the student if `value` is older than the code in its cell, or ""."""
         run = self._run_after(value)
         if run is None:
             return ""
@@ -84,7 +84,7 @@ def _correct() -> str:
 
 
 def _handler_of(service: str) -> Value:
-    """Return the function that handles calls to `service` in this process, or None."""
+    """Return the function that handles calls to the object `service` in this process, or None."""
     if "rospy" not in sys.modules:
         return None
     from rospy.impl.registration import get_service_manager

@@ -29,7 +29,10 @@ class TimesUp(BaseException):
 
 
 class TimeLimit:
-    """Calls functions in the main thread, and ends a call that takes longer than `seconds`."""
+    """Calls functions in the main thread, and ends a call that takes longer than the time limit.
+
+    `seconds` is the time limit in s.
+    """
 
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
@@ -39,7 +42,7 @@ class TimeLimit:
         self._stopped = False  # The value is true after the user has pressed the Stop button.
 
     def call(self, function: Callable[[], Value]) -> Value:
-        """Return the result of `function`.
+        """Call the function `function`, and return its result.
 
         Raises TimesUp after the time limit, and KeyboardInterrupt after the user has pressed Stop.
         """
@@ -80,7 +83,7 @@ class TimeLimit:
 
 
 def _call(function: Callable[[], Value]) -> Value:
-    """Run `function`; _is_called() finds this frame on the stack."""
+    """Run the function `function`; _is_called() finds the frame of this call on the stack."""
     return function()
 
 

@@ -39,7 +39,9 @@ class Frozen:
 
 @dataclass(frozen=True)
 class Crash:
-    """End without a response; after `back` s, serve again at another address.
+    """End without a response; later, serve again at another address.
+
+    `back` is the time in s until the server serves again.
 
     The server's registration remains at the master, as after a SIGKILL. If `unregisters` is true, the server
     first unregisters, like a process that ends normally.
@@ -58,7 +60,7 @@ class Fault:
 
 
 class FaultyServer(ScriptedServer):
-    """For each request, calls `work`, or executes the next fault from `plan`."""
+    """For each request, calls the function `work`, or executes the next fault in the list `plan`."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, work: Work) -> None:
         super().__init__(node, name, kind, self._scripted)

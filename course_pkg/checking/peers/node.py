@@ -45,18 +45,18 @@ class Node:
         return [name for name in names if not name.endswith(("/get_loggers", "/set_logger_level"))]
 
     def registration(self, service: str) -> Registration | None:
-        """Return the registration of `service`, or None."""
+        """Return the registration of the service `service`, or None."""
         providers = self.master.system_state().services.get(service, ())
         uri = self.master.lookup_service(service)
         node_uri = self.master.lookup_node(providers[0]) if providers else None
         return Registration(providers[0], uri, node_uri) if uri and node_uri else None
 
     def register(self, service: str, uri: str) -> None:
-        """Register this node as the server of `service`, at the address `uri`."""
+        """Register this node as the server of the service `service`, at the address `uri`."""
         self.master.register_service(self.name, service, uri, self.uri)
 
     def restore(self, service: str, former: Registration | None) -> None:
-        """Register the `former` server of `service` again, under the name of its former node.
+        """Register the server `former` of the service again, under the name of its former node.
 
         The master stores one server for each service. It does not notify a replaced server, so the former
         server does not register again by itself.
@@ -65,7 +65,7 @@ class Node:
             self.master.register_service(former.node, service, former.uri, former.node_uri)
 
     def forget_topics(self, made: Callable[[str], bool]) -> None:
-        """Unregister all publishers and subscribers of the topics for whose names `made` returns true.
+        """Unregister all publishers and subscribers of a topic if `made` returns True for its name.
 
         A student's function may have left publishers and subscribers registered.
         """
@@ -73,7 +73,7 @@ class Node:
         withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])
 
     def probe(self, service: str) -> Probe | None:
-        """Request the type of `service` from its server; return None if no server is registered."""
+        """Request the type of this service from its server; return None if no server is registered."""
         if not (uri := self.master.lookup_service(service)):
             return None
         probe = service_probe(service, uri)
@@ -83,9 +83,10 @@ class Node:
 
 @contextmanager
 def on_the_graph() -> Iterator[Node]:
-    """Join the graph as an anonymous node, such as /client_4711_1763949000123, and unregister all at the end.
+    """Join the graph as an anonymous node, such as /client_4711_1763949000123; leave the graph at the end.
 
-    The name is similar to the names of other anonymous nodes, so a program cannot recognise a check by it.
+    The name is similar to the names of other anonymous nodes, so a program cannot recognise a check by its
+    name.
 
     Raises GraphError if the master does not answer.
     """
@@ -120,7 +121,7 @@ def held_back(number: int) -> Iterator[list[int]]:
 
 
 class FakeNode:
-    """A node that is registered as a publisher of `topic` during the `with` block, but never publishes.
+    """A node that never publishes; during the `with` block, it is registered as a publisher of a topic.
 
     If `alive` is true, the FakeNode has a slave API of its own, so a ping succeeds; `pings` contains the
     methods that were called. If `alive` is false, the port of the address is closed, as after a kill. If
@@ -152,7 +153,8 @@ class FakeNode:
         self._node.master.unregister_publisher(self.name, self._topic, self._uri)
         if self._listener:
             with suppress(OSError):
-                self._listener.shutdown(socket.SHUT_RDWR)  # This call ends accept().
+                # This call makes the other thread's accept() raise an error.
+                self._listener.shutdown(socket.SHUT_RDWR)
             self._listener.close()
         if self._api:
             self._api.shutdown()

@@ -16,7 +16,7 @@ from course_pkg.waiting import wait_until
 
 
 class Publisher:
-    """Publishes its messages on `topic` in a cycle, one message every `every` s.
+    """Publishes its messages on the topic `topic` in a cycle; the time between two messages is `every` s.
 
     If `once` is true, the publisher begins as soon as there is a subscriber, and ends after the last message.
     `sent` contains the times of the messages in s of time.monotonic(). `subscribers` contains the number of
@@ -47,7 +47,7 @@ class Publisher:
         self._publisher = rospy.Publisher(topic, kind, queue_size=100, tcp_nodelay=True)
 
     def has_subscriber(self, within: float = 2.0) -> bool:
-        """Wait at most `within` s for a subscriber; return whether there is one."""
+        """Wait until there is a subscriber, for at most `within` (s); return whether there is one."""
         return bool(wait_until(self._publisher.get_num_connections, within, stopped=self._over))
 
     def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
@@ -66,7 +66,10 @@ class Publisher:
         self._results.passes(assertion)
 
     def finish(self, within: float = 10.0) -> bool:
-        """If `once` is true, wait up to `within` s for the last message; return whether it was published."""
+        """Wait for the last message if `once` is true; return whether it was published.
+
+        The maximum waiting time is `within` (s).
+        """
         return self._done.wait(within)
 
     def stop(self) -> None:

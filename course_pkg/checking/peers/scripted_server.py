@@ -40,7 +40,7 @@ class Silence:
 
 @dataclass(frozen=True)
 class Late:
-    """Respond with `values` after `delay` s."""
+    """Wait for the time `delay` (s), and then respond with the values `values`."""
 
     delay: float
     values: Mapping[str, Value]
@@ -62,7 +62,7 @@ class Received:
 
 
 class ScriptedServer:
-    """Serves `name` during the `with` block; after the block, the previous server is registered again."""
+    """Offers the service during the `with` block; after the block, registers the previous server again."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, script: Script) -> None:
         self.received = Received()

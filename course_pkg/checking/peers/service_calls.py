@@ -64,7 +64,7 @@ class Service:
         return self._answered(self._call([self._request(*values, **fields)])[0])
 
     def at_once(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
-        """Make a call for each of `requests`, all at the same time; return the replies in order.
+        """Make one call for each request, all at the same time; return the replies in the same order.
 
         Asserts that the service responds to each request.
         """
@@ -82,8 +82,8 @@ class Service:
     ) -> str:
         """Assert that the service refuses a request with an error message that matches the pattern `saying`.
 
-        If `saying` is a pair, a report shows its second text instead of the pattern, such as "contains -1".
-        Returns the error message.
+        If `saying` is a pair, its first item is the pattern, and its second item is a text such as "contains
+        -1". A report shows this text instead of the pattern. Returns the error message.
         """
         reply = self._call([self._request(**fields)])[0]
         self._results.asked = lambda: command_line(self.name, self.kind, reply.request)

@@ -55,17 +55,23 @@ class Subscription:
         return tuple(self._arrivals)
 
     def wait(self, count: int = 1, within: float = 5.0) -> list[Arrival]:
-        """Return the first `count` messages, or fewer messages after `within` s."""
+        """Return the first `count` messages.
+
+        If fewer messages have arrived after the time `within` (s), return only these messages.
+        """
         self.until(lambda arrivals: len(arrivals) >= count, within)
         return self._arrivals[:count]
 
     def until(self, condition: Callable[[Sequence[Arrival]], bool], within: float = 5.0) -> bool:
-        """Wait at most `within` s until the messages meet `condition`; return whether they meet it."""
+        """Wait until the function `condition` accepts the messages; return whether it accepts them.
+
+        The maximum waiting time is `within` (s).
+        """
         with self._arrived:
             return self._arrived.wait_for(lambda: condition(self._arrivals), within)
 
     def during(self, seconds: float) -> list[Arrival]:
-        """Wait for `seconds` s, and return the messages that arrived in this time."""
+        """Wait for the time `seconds` (s), and return the messages that arrived in this time."""
         with self._arrived:
             before = len(self._arrivals)
             self._arrived.wait_for(lambda: False, seconds)
@@ -141,7 +147,7 @@ class Subscription:
 
 
 def rate(arrivals: Sequence[Arrival]) -> float:
-    """Return the number of messages per second; 0.0 if there are fewer than two messages."""
+    """Return the number of messages per second; return 0.0 if there are fewer than two messages."""
     if len(arrivals) < 2 or arrivals[-1].at <= arrivals[0].at:
         return 0.0
     return (len(arrivals) - 1) / (arrivals[-1].at - arrivals[0].at)

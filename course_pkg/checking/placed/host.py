@@ -73,7 +73,8 @@ class PlacedObjects:
             self._closed = True
             left = dict(self._open)
         with suppress(OSError):
-            self._listener.shutdown(socket.SHUT_RDWR)  # This call ends accept().
+            # This call makes the other thread's accept() raise an error.
+            self._listener.shutdown(socket.SHUT_RDWR)
         self._listener.close()
         for each in self._objects:
             if callable(close := getattr(each, "close", None)):
@@ -86,7 +87,7 @@ class PlacedObjects:
             thread.join(deadline.left)
 
     def place(self, item: object) -> dict[str, Json]:
-        """Return the arguments of the request `place` for `item`: the port, the key and the remote names."""
+        """Return the arguments of the request `place` for an object: port, key and remote names."""
         port: int = self._listener.getsockname()[1]
         return {"port": port, "key": self._key, "item": self._described(item)}
 
@@ -174,7 +175,7 @@ class PlacedObjects:
 def _done(
     item: object, names: Interface, do: str, name: str, args: list[Json], kwargs: dict[str, Json]
 ) -> object:
-    """Execute the request `do` ("call", "get" or "set") for `name`, which must be a remote name."""
+    """Execute the request `do` ("call", "get" or "set") for the name `name`, which must be a remote name."""
     if do == "call" and name in names.methods:
         return getattr(item, name)(*args, **kwargs)
     if do == "get" and name in names.readable:

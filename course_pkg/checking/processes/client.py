@@ -33,7 +33,7 @@ RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.processes.runner
 
 
 def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report:
-    """Let a separate node examine part `check_id`, such as "05.1", and return the report.
+    """Let a separate node examine the part `check_id`, such as "05.1", and return the report.
 
     `namespace` contains the names that the student has defined. If `namespace` is None, the names of the
     notebook are used. An error of the check is shown in the report. Only KeyboardInterrupt is raised, and
@@ -104,7 +104,7 @@ def _started_runner() -> Iterator[Channel]:
 
 
 def _spawn(theirs: socket.socket, log: IO[bytes]) -> subprocess.Popen[bytes]:
-    """Start the check runner in a separate session: an interrupt of the kernel does not reach this session.
+    """Start the check runner in a separate session, because an interrupt of the kernel must not reach it.
 
     The check runner imports the course and the workspace from the same folders as this process. The
     notebook's folder is searched last, or not at all, so a student's file rospy.py cannot replace the module

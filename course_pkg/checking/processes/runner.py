@@ -161,7 +161,7 @@ def _report(
     note: str = "",
     goals: Iterable[str] = (),
 ) -> Report:
-    """Return the report of `part`; `goals` are the texts of the fulfilled goals."""
+    """Return the report of the part `part`; `goals` are the texts of the fulfilled goals."""
     found = with_fulfilled(part.goals, goals)
     points = part.points if verdict is Verdict.PASSED else earned(found)
     return Report(part.check, verdict, part.goal, points, part.points, assertions, note, goals=found)

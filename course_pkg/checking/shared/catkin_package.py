@@ -23,8 +23,8 @@ BUILDS = "catkin_make builds the package"
 # The limits are the CPU time in s and the size of a file in KiB. A sandbox has separate limits for these
 # values.
 LIMITS = "ulimit -t 20 -f 60000 2> /dev/null"
-# The time limit of the build in s. A build takes 3 s of CPU time, or 6 s on a machine with two cores and a
-# load average of 9.
+# This is the time limit of the build in s. A build takes 3 s of CPU time, or 6 s on a machine with two cores
+# and a load average of 9.
 BUILD = 50.0
 OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
@@ -60,7 +60,9 @@ class BuiltPackage:
         self.package = package
 
     def run(self, line: str, *, within: float = 10.0, worded: str = "", setup: str = SETUP) -> Finished:
-        """Run a line of bash after `source devel/setup.bash`, for at most `within` s; return its result.
+        """Run a line of bash after `source devel/setup.bash`; return its result.
+
+        The time limit is `within` (s).
 
         A report shows `worded` instead of the line, if `worded` is given.
         """
@@ -107,8 +109,8 @@ def built(
 
     If `alone` is true, only the file `examined` comes from the student. `drawn` contains files that replace
     the student's files; the keys are paths in the package. The content of these files is random, so that a
-    student's CMakeLists.txt cannot contain it in advance. Raises CheckError if the build takes more than
-    `within` s. A build with C++ needs more time than the default.
+    student's CMakeLists.txt cannot contain it in advance. Raises CheckError if the build takes longer than
+    the time limit `within` (s). A build with C++ needs more time than the default.
     """
     own = _own_files(package, examined)
     replaced = {package.path(file): text for file, text in (drawn or {}).items()}
@@ -122,9 +124,9 @@ def built(
 
 
 def run_catkin_make(folder: Folder, before: str, options: str = "", *, within: float) -> Finished:
-    """Run catkin_make in `folder` after the commands `before` of bash, such as "ulimit -t 6;".
+    """Run catkin_make in the folder `folder` after the bash commands `before`, such as "ulimit -t 6;".
 
-    Raises CheckError if catkin_make has not finished after `within` s.
+    Raises CheckError if catkin_make takes longer than the time limit `within` (s).
     """
     line = f"{before} exec {CATKIN_MAKE} {options}"
     build = folder.command("bash", "-c", line, within=within, worded="catkin_make")

@@ -35,10 +35,10 @@ LINES = 2000
 def compile_roscpp(
     context: CheckContext, folder: Folder, file: str, program: str, *, limits: str, within: float
 ) -> None:
-    """Compile `file` to `program` in `folder`, and assert that the result is a roscpp program.
+    """Compile a file in the folder, and assert that the result is a roscpp program.
 
     `limits` is a bash command that limits the resources of the compiler, such as `ulimit`. Raises CheckError
-    if the compiler has not finished after `within` s.
+    if the compiler takes longer than the time limit `within` (s).
     """
     line = f"{limits}; exec {shlex.join(compile_command(file, program))}"
     done = folder.command("bash", "-c", line, within=within, worded=f"the compiler, at {file}")
@@ -60,7 +60,9 @@ def compile_roscpp(
 
 
 def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
-    """Assert that the file `program` in `folder` is a compiled roscpp program that starts no other program.
+    """Assert that the file `program` is a compiled roscpp program that starts no other program.
+
+    The file is in the folder `folder`.
 
     C++ code can start another program (exec(3)), and a CMakeLists.txt can write a script instead of the
     compiled program. Raises ToolMissing if binutils is missing; binutils is usually installed with a
@@ -104,7 +106,7 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
 def require_no_other_program(context: CheckContext, running: Running) -> None:
     """Assert that the processes of `running` execute only the compiled program of their folder.
 
-    Other files that Running.examine() found earlier also count.
+    The assertion also fails if Running.examine() has found another file earlier.
     """
     running.examine()
     if running.other:

@@ -19,7 +19,9 @@ def require_shebang(
     assertion: str = "its first line is #!/usr/bin/env python3",
     program: str = "python3",
 ) -> None:
-    """Assert that the file's first line is a shebang for `program`, and that it does not use Python 2.
+    """Assert that the file's first line is a shebang for the right program, and does not use Python 2.
+
+    `program` is the name of the right program.
 
     `missing`, `elsewhere`, `another`, `windows` and `mark` are hints for five mistakes: no shebang, a shebang
     in another line, another program, Windows line endings, and a byte order mark. `missing` also replaces

@@ -1,4 +1,4 @@
-"""What a student handed in: a submission for each chapter, and messages about files that are not graded."""
+"""A student's work: a submission for each chapter, and messages about files that are not graded."""
 
 from __future__ import annotations
 
@@ -12,12 +12,13 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.submissions import submissions
 
-# The submission is copied to a folder with this name. Gradescope knows the name of the student.
+# The submission is copied to a folder with this name. The folder does not need the student's name, because
+# Gradescope knows this name.
 STUDENT = "student"
 
 
 def handed_in(folder: Path, chapters: Sequence[str]) -> tuple[list[Submission], list[str]]:
-    """Return a submission for each chapter in `chapters`, and messages about files that are not graded."""
+    """Return a submission for each of these chapters, and messages about files that are not graded."""
     with tempfile.TemporaryDirectory(prefix="course-autograder-") as copied:
         if folder.is_dir():
             shutil.copytree(folder, Path(copied, STUDENT), symlinks=True, ignore=_special)
@@ -45,6 +46,6 @@ def _missing(chapter: str) -> Submission:
 
 
 def _special(folder: str, names: Sequence[str]) -> list[str]:
-    """Return the names of pipes, sockets and devices in `folder`, because reading them could block."""
+    """Return the names of pipes, sockets and devices in this folder, because reading them could block."""
     paths = [Path(folder, name) for name in names]
     return [path.name for path in paths if not (path.is_symlink() or path.is_file() or path.is_dir())]

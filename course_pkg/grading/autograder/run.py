@@ -56,7 +56,7 @@ def prepare() -> int:
 
 
 def autograde(root: Path) -> int:
-    """Grade the submission in `root`, which is /autograder, and write results.json."""
+    """Grade the submission in the folder `root`, which is /autograder, and write results.json."""
     try:
         results = _results(root)
     except CourseError as error:

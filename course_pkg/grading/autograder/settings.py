@@ -21,7 +21,7 @@ class Settings:
 
     chapters: tuple[str, ...]
     minutes: float  # `minutes` is the time limit of a run; Gradescope's time limit must be longer.
-    late_per_day: float | None = None  # percent
+    late_per_day: float | None = None  # The deduction is in percent.
     late_max_days: float | None = None
 
     @property
@@ -38,7 +38,7 @@ class Settings:
 
 
 def read_settings(path: Path) -> Settings:
-    """Return the settings in the file at `path`; raise GradingError if the file is damaged."""
+    """Return the settings in the file at the path `path`; raise GradingError if the file is damaged."""
     try:
         known = json.loads(path.read_text("utf-8"))
         return Settings(**{**known, "chapters": tuple(known["chapters"])})

@@ -12,7 +12,7 @@ from course_pkg.grading.deadlines.extensions import Extensions
 from course_pkg.grading.deadlines.moments import moment_of
 
 OPTION = re.compile(r"(?:(?P<chapter>\d{1,2})=)?(?P<time>.+)")
-DAY = 86_400.0  # s
+DAY = 86_400.0  # The time is in s.
 
 
 @dataclass(frozen=True)

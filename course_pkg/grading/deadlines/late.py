@@ -28,7 +28,7 @@ class LatePolicy:
     max_days: float = math.inf
 
     def factor(self, late: float) -> float:
-        """Return the factor for the points of a submission that came `late` days after the deadline."""
+        """Return the factor for the points of a late submission; `late` is the number of days."""
         if late <= 0:
             return 1.0
         if late > self.max_days:
@@ -95,7 +95,7 @@ class LateTable:
 
 
 def late_table(path: Path) -> LateTable:
-    """Return the table in the CSV file at `path`, with the columns student,days or student,chapter,days."""
+    """Return the table in a CSV file with the columns student,days or student,chapter,days."""
     lines = table_rows(path, "table of late days")
     head = [name.strip().lower() for name in lines[0]] if lines else []
     if head not in COLUMNS:

@@ -101,7 +101,7 @@ def _best(groups: Iterable[list[Grade]]) -> Iterator[Grade]:
 def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime | None]) -> Submission:
     """Return the last attempt of a student for a chapter.
 
-    If a time is unknown, or two times are equal, the result is the last item of `given`.
+    If a time is unknown, or two times are equal, the result is the last attempt in `given`.
     """
     times = [when(each) for each in given]
     stamps = [moment.timestamp() for moment in times if moment]

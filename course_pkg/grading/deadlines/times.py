@@ -33,8 +33,8 @@ from course_pkg.grading.intake.naming import (
 )
 
 NBGRADER, GRADESCOPE_WORD = "nbgrader", "gradescope"
-STAMP, STAMP_LIMIT = "timestamp.txt", 200  # bytes
-METADATA_LIMIT = 64 << 20  # bytes
+STAMP, STAMP_LIMIT = "timestamp.txt", 200  # The size is in bytes.
+METADATA_LIMIT = 64 << 20  # The size is in bytes.
 IDENTIFIER, MODIFIED = "identifier", "last modified (submission)"
 SUBMITTED = ("submitted", "time", "created_at")
 When = Callable[[Submission], datetime | None]
@@ -100,7 +100,7 @@ class _Table:
 
 
 def _has(submission: Submission, file: str) -> bool:
-    """Return whether the submission contains `file`.
+    """Return whether the submission contains the file `file`.
 
     `file` is a path, relative to the folder of all submissions or to the student's folder.
     """

@@ -50,7 +50,7 @@ def wanted_kinds(names: Sequence[str]) -> list[str]:
 def with_flags(
     grades: Sequence[Grade], submissions: Sequence[Submission], names: Sequence[str]
 ) -> list[Grade]:
-    """Search the graded submissions for the kinds of flags `names`; return the grades with the found flags.
+    """Search the graded submissions for flags of the kinds in `names`; return the grades with these flags.
 
     Submissions that do not count, such as earlier attempts, get no flags. The flags of a grade from an
     earlier run do not change if this run has no submission for it.

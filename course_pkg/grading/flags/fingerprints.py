@@ -1,4 +1,4 @@
-"""Fingerprints of code: features that do not depend on names, comments and the order of statements.
+"""Fingerprints of code: features that do not depend on names, on comments, or on the order of statements.
 
 There are three kinds of features. The first is a statement, with the block that contains it. The second is a
 pair of statements: one sets a name, and the other uses this name. The third is the set of all statements of a
@@ -24,7 +24,8 @@ from course_pkg.grading.flags.work import Answer
 
 # If a function, a class or another block contains at least BLOCK statements, the block is one feature.
 BLOCK = 3
-PAIRS = 400  # A name with more pairs is ignored, because a name in many lines is not characteristic.
+# A name with more pairs than this is ignored, because a name in many lines is not characteristic.
+PAIRS = 400
 LONG = 12  # A characteristic string has at least this many characters.
 LINE = 500  # Comments and strings in longer lines of C++ are ignored.
 TEXT = re.compile(r'"([^"]+)"')

@@ -26,7 +26,7 @@ from itertools import combinations
 
 from course_pkg.grading.flags.fingerprints import Fingerprint
 
-STATEMENTS = 10  # An answer with fewer statements is not compared.
+STATEMENTS = 10  # An answer with fewer statements than this is not compared.
 COMMON = 0.1  # Code is ignored if more than this fraction of the class has it.
 FEW = 3  # Even in a small class, code is compared if at most this many students have it.
 SMALL = 30  # For a smaller class, the weights are computed as for a class of this size.
@@ -38,7 +38,7 @@ OWN_CODE = 15
 # One answer is also enough to flag a pair if the two answers have at least OWN_WORDS comments, strings or
 # names in common that at most one other student has.
 OWN_WORDS = 3
-MARGIN = 1.0  # bits
+MARGIN = 1.0  # The margin is in bits.
 NOTHING = Fingerprint(0)
 Couple = tuple[int, int]
 
@@ -129,7 +129,7 @@ class Exercise:
         return math.log2(everybody / max(1, as_much))
 
     def is_enough(self, couple: Couple) -> bool:
-        """Return whether one nearly identical answer is enough to flag the two students in `couple`."""
+        """Return whether one nearly identical answer is enough to flag a pair of students."""
         first, second = (self._answers[number] for number in couple)
         words = self._rare(first.words & second.words)
         return words >= OWN_WORDS or (

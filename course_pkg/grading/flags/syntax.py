@@ -55,7 +55,7 @@ def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
 
 
 def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
-    """Return `known`, with an entry for each name in `module` that refers to an imported object.
+    """Return the mapping `known`, with an entry for each name in `module` that refers to an imported object.
 
     After `file = Path("x")`, the result contains "pathlib.Path" for "file", so that calls of the path's
     methods can be found.
@@ -72,7 +72,7 @@ def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
 
 
 def dotted(node: ast.expr, names: Mapping[str, str]) -> str:
-    """Return the full name of an imported object, such as "threading.Lock"; "" for any other expression."""
+    """Return the full name of an imported object, such as "threading.Lock", or "" for other expressions."""
     attributes: list[str] = []
     while isinstance(node, ast.Attribute):
         attributes.append(node.attr)

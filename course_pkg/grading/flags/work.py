@@ -36,7 +36,7 @@ class Answer:
     def name(self) -> str:
         """The path of the answer's file, or the id of the part if there is no file.
 
-        The name of an answer is the same if a cell writes the file, and if a package contains the file.
+        The name is the same in both cases: a cell writes the file, or a package contains the file.
         """
         return self.path.removeprefix("src/") or self.where
 
@@ -73,7 +73,7 @@ Found = tuple[Work, Flag]  # The function `find` of each kind of flag yields suc
 
 
 def group_of(chapter: str, submissions: Sequence[Submission], plan: Plan) -> Group:
-    """Return the answers in `submissions`; each submission is for the chapter `chapter`."""
+    """Return the answers in these submissions, which are all for the chapter `chapter`."""
     notebook = read(NotebookStore().solutions([chapter])[0])
     cells = code_cells(notebook)
     parts = {part: cell["source"] for cell in cells if (part := exercise_of(cell))}

@@ -22,11 +22,12 @@ from course_pkg.grading import clean
 
 LARGEST = 20 << 20  # LARGEST is the maximum number of bytes of one notebook.
 ALTOGETHER = 4 << 30  # ALTOGETHER is the maximum number of bytes of all unpacked notebooks in a zip.
-# Maximum compression ratio. A usual notebook has a compression ratio of 10, or of 100 with much repetition.
+# This is the maximum compression ratio of a file. A usual notebook has a compression ratio of 10, or of 100
+# with much repetition.
 RATIO = 400
-SMALL = 1 << 20  # The compression ratio of files with fewer bytes is not checked.
+SMALL = 1 << 20  # The compression ratio of files with fewer bytes than this is not checked.
 MEMBERS = 200_000
-DEPTH = 16  # A file inside more nested folders is not graded.
+DEPTH = 16  # A file inside more nested folders than this is not graded.
 LITTER = {"__macosx", "thumbs.db", "desktop.ini", "timestamp.txt", "__pycache__"}
 
 
@@ -69,7 +70,7 @@ def opened(source: Path) -> Iterator[list[Entry]]:
 
 
 def one_file(path: Path) -> Entry:
-    """Return an entry for the file at `path`; raise GradingError if this file does not exist."""
+    """Return an entry for the file at the path `path`; raise GradingError if this file does not exist."""
     try:
         return Entry(path.name, path.lstat().st_mtime, partial(_read_file, path))
     except OSError as error:

@@ -83,12 +83,12 @@ def report_folders(source: Path, out: Path | None) -> list[str]:
 
 
 def is_inside(path: str, folders: Sequence[str]) -> bool:
-    """Return whether the file at `path` is in a folder of the list `folders`; a / separates the names."""
+    """Return whether the file at this path is in one of the folders; a / separates the names."""
     return any(path.startswith(f"{folder}/") for folder in folders)
 
 
 def _path_inside(source: Path, folder: Path | None) -> str:
-    """Return the path of `folder` relative to `source`, or "" if `folder` is not inside `source`."""
+    """Return the path of the folder relative to `source`, or "" if the folder is not inside `source`."""
     try:
         inside = folder.resolve().relative_to(source.resolve()) if folder else Path()
     except ValueError:

@@ -61,7 +61,7 @@ class Found:
 
 
 def package_roots(paths: Sequence[tuple[str, ...]]) -> set[tuple[str, ...]]:
-    """Return the folders of packages that contain a student's files `paths`; packages are not nested."""
+    """Return the folders that are packages, from the paths of a student's files; packages are not nested."""
     with_manifest = {path[:-1] for path in paths if len(path) > 1 and path[-1] == MANIFEST}
     own = {root for root in with_manifest if not is_generated(root)}
     return {root for root in own if not any(root[:depth] in own for depth in range(1, len(root)))}

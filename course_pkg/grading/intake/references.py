@@ -70,7 +70,10 @@ class References:
         return self.by_ids(cells)
 
     def by_ids(self, cells: Sequence[StudentCell]) -> str:
-        """Return the chapter whose solution has the most ids in common with `cells`; "" if too few match."""
+        """Return the chapter whose solution has the most ids in common with the cells.
+
+        If too few ids are equal, return "".
+        """
         shared = Counter(chapter for cell in cells for chapter in self._ids.get(cell.id, []))
         chapter, count = max(shared.items(), key=lambda item: (item[1], item[0]), default=("", 0))
         return chapter if count >= ENOUGH else ""

@@ -61,7 +61,7 @@ class _Found:
 def submissions(
     source: Path, chapters: Sequence[str] = (), root: Path | None = None, without: Path | None = None
 ) -> list[Submission]:
-    """Return the submissions for `chapters`, or for all chapters, sorted by student and chapter.
+    """Return the submissions for these chapters, or for all chapters, sorted by student and chapter.
 
     `source` is a folder with files such as `<student>/NN_topic.ipynb`, a zip of such a folder, a download
     from a platform (see naming.py), or one notebook. `root` is the checkout that contains the solutions.

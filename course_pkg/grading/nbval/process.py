@@ -65,13 +65,13 @@ def main() -> None:
 
 
 def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
-    """Run `command`.
+    """Run the command `command` with limits for its memory and its progress.
 
     Kill the processes of the command if they use too much memory, or if the file `record` does not grow for
-    `silence` s.
+    the time `silence` (s).
 
-    Returns True if `record` did not grow for `silence` s. Without this limit, nbval would wait for ever if
-    the connections of a kernel are damaged.
+    Returns True if the processes were killed because the file did not grow. Without the limit `silence`,
+    nbval would wait for ever if the connections of a kernel are damaged.
     """
     size, deadline = 0, Deadline(silence)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
@@ -137,7 +137,7 @@ def _set_environment(folder: Path, record: Path, port: int) -> None:
 
 
 def _kernel_command(filter_file: Path) -> list[str]:
-    """Return the command of a kernel that cannot read solutions, checks and other processes."""
+    """Return the command of a kernel that cannot read the solutions, the checks, or other processes."""
     size, folders = str(confinement.DISK), (*confinement.MEMORY_FOLDERS, "/student")
     memory = [option for each in folders for option in ("--size", size, "--tmpfs", each)]
     shown = [option for each in confinement.shadowed_paths() for option in ("--ro-bind", each, each)]

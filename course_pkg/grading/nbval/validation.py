@@ -24,7 +24,7 @@ OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes of nbval's output.
 def wanted(grade: Grade, whose: str) -> bool:
     """Return whether nbval runs a notebook.
 
-    `whose` is "all", "none", or "missing" for notebooks that do not have all points.
+    `whose` is "all", "none" or "missing"; "missing" means the notebooks that do not have all points.
     """
     if not grade.reports or grade.problem or whose == "none":
         return False
@@ -32,7 +32,7 @@ def wanted(grade: Grade, whose: str) -> bool:
 
 
 def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
-    """Return `grade`, and add the result of nbval for each cell of the notebook.
+    """Return the grade, and add the result of nbval for each cell of the notebook.
 
     If there are no results, a note in the grade says why.
     """
@@ -47,7 +47,7 @@ def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
 
 
 def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL) -> tuple[CellOutcome, ...]:
-    """Run nbval on `notebook` in a sandbox; `cell` is the time limit of each cell in s.
+    """Run nbval on the notebook in a sandbox; `cell` is the time limit of each cell in s.
 
     Returns an empty tuple if the notebook takes more than `timeout` s.
     """

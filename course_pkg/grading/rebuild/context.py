@@ -37,7 +37,7 @@ class _Cell:
 
 
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
-    """Return the sources of the cells in `above` that `answer` needs, in their order.
+    """Return the sources of the cells in `above` that the code `answer` needs, in their order.
 
     The code in `before` always runs, so no other cell is needed for the names that this code defines.
     """

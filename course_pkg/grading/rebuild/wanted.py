@@ -75,7 +75,7 @@ def defined(source: str) -> set[str]:
 
 
 def lent(source: str) -> set[str]:
-    """Return the names in a cell that other cells probably use: functions, classes, imports and CONSTANTS."""
+    """Return the names in a cell that other cells probably use: functions, classes, imports and constants."""
     text = source[:SCANNED]
     constants = {name for name in ASSIGNED.findall(text) if name.isupper()}
     return {*DEFINED.findall(text), *constants, *_imported(text)}

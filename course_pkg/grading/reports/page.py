@@ -57,7 +57,7 @@ def paragraph(value: object, kind: str = "") -> str:
 
 
 def banner(title: str, sentences: Sequence[str]) -> str:
-    """Return a highlighted box that contains `sentences`, or "" if there are no sentences."""
+    """Return a highlighted box that contains the sentences, or "" if there are no sentences."""
     shown = [sentence for value in sentences if (sentence := text(value, 1000))]
     if not shown:
         return ""

@@ -32,7 +32,7 @@ def write_reports(
     """Write every report about `grades` into the folder `out`.
 
     `class_list` contains the students' identities and the missing students. `asked` contains the chapters of
-    this run; by default, it contains all chapters of `grades`.
+    this run; by default, it contains all chapters that have a grade.
     """
     book = Book(grades, class_list, asked)
     chapters = asked.chapters if asked else ()

@@ -83,7 +83,7 @@ def is_unfinished(item: Item, overrides: Overrides) -> bool:
 
 
 def identical(item: Item, items: Sequence[Item]) -> list[Item]:
-    """Return other students' answers that have the same code for the same part; [] for an empty answer."""
+    """Return other students' answers that have the same code for the same part, or [] for an empty answer."""
     if not item.code.strip():
         return []
     return [

@@ -27,7 +27,7 @@ from course_pkg.grading.tables import UTF_16, delimiter_of, table_bytes
 
 FILE = "overrides.csv"
 COLUMNS = ("student", "chapter", "part", "points", "comment", "answer")
-LARGEST = 20_000_000  # bytes
+LARGEST = 20_000_000  # The size is in bytes.
 POINTS = re.compile(r"\d{1,6}([.,]\d{1,2})?")
 PREFIX = "Part "
 LONG = 4_000  # LONG is the maximum number of characters of a comment.

@@ -1,8 +1,8 @@
 // The review page: it shows one answer at a time, and saves points and comments.
 "use strict";
 const token = document.currentScript.dataset.token;
-const CHECKED = 5000; // ms; how often the page asks whether another program has changed overrides.csv
-const AHEAD = 3; // answers that are loaded before they are shown
+const CHECKED = 5000; // Every CHECKED ms, the page asks whether another program has changed overrides.csv.
+const AHEAD = 3; // The page loads this many answers in advance.
 const $ = (id) => document.getElementById(id);
 
 let items = []; // all answers, sorted by part
@@ -10,7 +10,7 @@ let rows = {}; // the stored points and comments, by the number of the answer
 let drafts = {}; // points and comments that could not be saved, by the number of the answer
 let current = -1; // the number of the shown answer
 let undoable = 0;
-let saving = Promise.resolve(); // changes are sent one after the other
+let saving = Promise.resolve(); // The page sends changes one after the other.
 const loaded = new Map(); // the HTML of answers, by their number
 
 async function request(path, data) {
@@ -31,7 +31,8 @@ async function request(path, data) {
 function html(number) {
   if (!loaded.has(number)) {
     const pending = request(`items/${number}`);
-    pending.catch(() => loaded.delete(number)); // the next visit tries again
+    // If the user returns to this answer, the page sends a new request.
+    pending.catch(() => loaded.delete(number));
     loaded.set(number, pending);
   }
   return loaded.get(number);
@@ -50,7 +51,7 @@ async function show(number) {
   try {
     const text = await html(number);
     if (number !== current) return;
-    $("answer").innerHTML = text; // the server has escaped everything in it
+    $("answer").innerHTML = text; // The server has escaped all texts in this HTML.
     const alike = Number($("alike").dataset.count);
     $("identical").hidden = !alike;
     $("identical").textContent = `Apply to ${alike} identical ${alike === 1 ? "answer" : "answers"}, too`;
@@ -114,7 +115,7 @@ function complain(text) {
   $("problem").firstElementChild.textContent = text;
 }
 
-// Save what was typed, if it differs from what is stored.
+// Save what the user typed, if it differs from the stored values.
 function commit() {
   if (current < 0) return;
   const typed = { points: $("points").value.trim(), comment: $("comment").value.trim() };
@@ -142,7 +143,7 @@ function save(number, typed, identical = false) {
   return saving;
 }
 
-// Take over rows that the server sent.
+// Use the rows that the server has sent.
 function adopt(answer, text) {
   rows = answer.reloaded ? {} : rows;
   for (const [number, row] of Object.entries(answer.rows || {})) {
@@ -171,7 +172,7 @@ function undo() {
       const answer = await request("undo", {});
       undoable = answer.undo;
       adopt(answer, "Undone");
-      if (number !== current) return; // the user has moved on
+      if (number !== current) return; // The user has moved to another answer.
       if (typeof answer.shown === "number" && answer.shown !== current) await show(answer.shown);
       else fill();
     } catch (error) {
@@ -235,11 +236,11 @@ document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey || event.isComposing || field.id === "comment" || current < 0) return;
   if (field.id === "points" && event.key === "Enter") return commit();
   if (field.id !== "points" && /^[0-9]$/.test(event.key)) {
-    focusOn("points"); // the selected text is replaced by the digit
+    focusOn("points"); // The digit replaces the selected text.
     return;
   }
   if (KEYS[event.key]) {
-    event.preventDefault(); // a list would search for the letter
+    event.preventDefault(); // Without this call, a list that has the focus would search for the letter.
     KEYS[event.key]();
     if (field.id === "points" && "njpkNP".includes(event.key)) focusOn("points");
   }

@@ -23,7 +23,7 @@ from course_pkg.web_pages.handler import ASSETS, PageHandler, templates_in
 
 HERE = Path(__file__).parent
 LARGEST = 100_000  # A request may have at most this many bytes.
-WAIT = 0.05  # s
+WAIT = 0.05  # The time is in s.
 
 
 def application(session: Session, token: str, port: Callable[[], int]) -> Application:
@@ -47,7 +47,7 @@ def application(session: Session, token: str, port: Callable[[], int]) -> Applic
 
 
 class Handler(PageHandler):
-    """Refuses a request that has no token, comes from another page, or has another host in its header."""
+    """Refuses a request that has no token, comes from another page, or has a wrong host in its header."""
 
     def initialize(
         self, session: Session, token: str, port: Callable[[], int], templates: Environment
@@ -68,7 +68,7 @@ class Handler(PageHandler):
             self.refuse(HTTPStatus.FORBIDDEN, reason)
 
     async def attempt(self, action: Callable[[], dict[str, Plain]]) -> None:
-        """Send the result of `action`, or the reason why it failed."""
+        """Send the result of the function `action`, or the reason why it failed."""
         while self.session.is_being_written():
             await asyncio.sleep(WAIT)
         try:
@@ -94,7 +94,7 @@ class Unknown(Handler):
     """Answers a request for an unknown address with the status 404."""
 
     def get(self) -> None:
-        """Send 404."""
+        """Send an error with the status 404."""
         self.refuse_path()
 
 

@@ -64,7 +64,7 @@ class Person:
 
 
 def read_roster(path: Path) -> tuple[Person, ...]:
-    """Return the students in the CSV file at `path`, in the order of the file.
+    """Return the students in the CSV file at the path `path`, in the order of the file.
 
     Raises GradingError if the file cannot be read, if no column is known, if two columns have the same
     meaning, if a row has no identity, or if two rows have the same identity. An error message never contains

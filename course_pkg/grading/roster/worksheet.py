@@ -122,7 +122,7 @@ class Worksheet:
 
     @property
     def about_points(self) -> str:
-        """Words for the end of a sentence that say whether the points are scaled to the maximum grade."""
+        """The end of a sentence; it says whether the points are scaled to the maximum grade."""
         if MAXIMUM not in self._columns:
             return "; it contains no maximum grade, so the points are not scaled"
         maxima = sorted({f"{each.maximum:g}" for each in self.participants if each.maximum})
@@ -185,7 +185,7 @@ class Worksheet:
 
 
 def read_worksheet(path: Path) -> Worksheet:
-    """Return the worksheet in the file at `path`.
+    """Return the worksheet in the file at the path `path`.
 
     Raises GradingError if the file cannot be read, is not a worksheet, uses a scale instead of points, or has
     a damaged row.

@@ -31,7 +31,10 @@ class Cluster:
         self.workers = max(1, sum(client.ncores().values()))
 
     def require(self) -> None:
-        """Raise GradingError if the scheduler has ended, or if no worker was connected for `patience` s."""
+        """Raise GradingError if the scheduler has ended, or if no worker has connected in time.
+
+        The maximum time without a worker is `patience` (s).
+        """
         if self._client.status != "running":
             raise self._lost()
         if self._client.scheduler_info(n_workers=-1)["workers"]:

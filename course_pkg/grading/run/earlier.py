@@ -17,7 +17,7 @@ from course_pkg.grading.run.selection import Selection
 class Earlier:
     """The records of earlier runs in the folder `out`.
 
-    `unreadable` is the number of files in `out` that this version of the course cannot read.
+    `unreadable` is the number of files in this folder that this version of the course cannot read.
     """
 
     out: Path
@@ -71,7 +71,7 @@ class Earlier:
 
 
 def read_earlier(out: Path) -> Earlier:
-    """Return the records in `out`, and the number of files that this version of the course cannot read."""
+    """Return the records in the folder `out`, and the number of files that this version cannot read."""
     grades, unreadable = [], 0
     for path in sorted((out / RESULTS).glob("*/*.json")):
         if path.name.startswith("."):

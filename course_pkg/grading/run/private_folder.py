@@ -17,7 +17,7 @@ EXPECTED = f"private_NN.py, such as private_05.py, or {POINTS}"
 
 
 def require_names(folder: Path, chapters: Sequence[str]) -> None:
-    """Raise GradingError if a file in `folder` is misnamed or empty, or if no file can be used.
+    """Raise GradingError if a file in the folder `folder` is misnamed or empty, or if no file can be used.
 
     A message on stderr lists the unused files. `chapters` contains the chapters with checks.
     """

@@ -41,10 +41,10 @@ class Regrade:
     def keep(self, store: Store, graded: Grade, parts: tuple[str, ...], alike: Sequence[Submission]) -> None:
         """Store a new grade for later runs; at this time, the grade contains no student's name.
 
-        All submissions in `alike` get the grade `graded`. If only `parts` were graded, the new reports on
-        these parts replace the reports in the stored grade. A stored grade that was computed with other
-        options or another version of the checks is removed. If such a grade stayed, a later run of the whole
-        notebook could use its points.
+        All submissions in the list `alike` get the grade `graded`. If only `parts` were graded, the new
+        reports on these parts replace the reports in the stored grade. A stored grade that was computed with
+        other options or another version of the checks is removed. If such a grade stayed, a later run of the
+        whole notebook could use its points.
         """
         if not parts:
             store.keep(graded)

@@ -43,7 +43,7 @@ class Selection:
         return not self.chapters or chapter in ("", *self.chapters)
 
     def only(self, graded: Sequence[Grade]) -> Selection:
-        """Return a selection that contains exactly the students and chapters of `graded`."""
+        """Return a selection that contains exactly the students and chapters of the grades `graded`."""
         students, chapters = {each.student for each in graded}, {each.chapter for each in graded}
         return replace(self, students=tuple(students), chapters=tuple(chapters))
 
@@ -87,7 +87,10 @@ def two_digits(number: str) -> str:
 
 
 def merged(base: Grade, again: Grade) -> Grade:
-    """Return `base` with the new reports from `again`; `again` contains only the selected parts."""
+    """Return the grade `base` with the new reports of the grade `again`.
+
+    The grade `again` contains only the selected parts.
+    """
     fresh = {report.check: report for report in again.reports}
     reports = [fresh.pop(report.check, report) for report in base.reports]
     reports = sorted([*reports, *fresh.values()], key=lambda report: list(map(int, report.check.split("."))))

@@ -25,7 +25,7 @@ from course_pkg.setup import PACKAGE_PARTS, Places
 SCRIPTS = Path(__file__).parent
 NEEDED = (*PACKAGE_PARTS, "solutions", "course", "pyproject.toml", "LICENSE")
 LEFT_OUT = re.compile(r"course_pkg/chapters/ch\d\d_\w+/(?:answers(?:\.py$|/)|recordings\.json$)")
-SHORTEST, LONGEST = 1.0, 60.0  # minutes
+SHORTEST, LONGEST = 1.0, 60.0  # The time limit is in minutes.
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Options:
     chapters: tuple[str, ...] = ()
     private: Path | None = None
     minutes: float = 9.0
-    late_per_day: float | None = None  # percent
+    late_per_day: float | None = None  # The deduction is in percent.
     late_max_days: float | None = None
 
 

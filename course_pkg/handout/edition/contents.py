@@ -82,7 +82,7 @@ def _record(released: Sequence[str], files: Sequence[str]) -> str:
 
 
 def tracked_files(root: Path, is_wanted: Callable[[str], bool]) -> Iterator[tuple[str, File]]:
-    """Yield the path and the content of each file of `root` that git tracks and that `is_wanted` accepts.
+    """Yield the path and the content of each file that git tracks and that `is_wanted` accepts.
 
     Raises HandoutError if `root` is not a git repository.
     """

@@ -23,7 +23,7 @@ class Release:
     """The short name of the new commit ("" if nothing changed), and the number of changed files."""
 
     commit: str
-    changed: int  # files
+    changed: int  # This is the number of changed files.
 
 
 class ReleaseFolder:
@@ -48,7 +48,7 @@ class ReleaseFolder:
         return git_value(self.path, "remote", "get-url", "origin") if (self.path / ".git").exists() else ""
 
     def write(self, files: Mapping[str, File], message: str) -> Release:
-        """Write `files`, remove all other files of an earlier release, and commit the changes.
+        """Write the given files, remove all other files of an earlier release, and commit the changes.
 
         Raises HandoutError if a file with uncommitted changes would be overwritten, or if the folder cannot
         be written. If a file would be overwritten, nothing is changed.

@@ -23,7 +23,7 @@ NO_IDENTITY = {"user.name": "course release", "user.email": "course@localhost"}
 
 
 def git(folder: Path, *arguments: str, given: str = "", identity: bool = False) -> str:
-    """Run git in `folder` with the text `given` as its input, and return its output.
+    """Run git in the folder `folder` with the text `given` as its input, and return its output.
 
     If `identity` is True, a commit gets a default name and address unless the user has configured them.
     Raises HandoutError if git fails or is not installed.

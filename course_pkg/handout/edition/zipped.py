@@ -31,7 +31,7 @@ def zip_path(folder: Path) -> Path:
 
 
 def write_zip(path: Path, folder: str, files: Mapping[str, File]) -> None:
-    """Write `files` to the zip at `path`.
+    """Write the given files to the zip at the path `path`.
 
     In the zip, the files are in a folder with the name `folder`; if `folder` is "", the files are not in a
     folder.

@@ -30,9 +30,9 @@ class Home:
 
 
 def homes_in(folder: Path, students: list[str] | None = None) -> list[Home]:
-    """Return the homes in `folder`, sorted by name.
+    """Return the homes in the folder `folder`, sorted by name.
 
-    If `students` is None, all homes are returned, otherwise only the homes of these students.
+    If `students` is None, all homes are returned. Otherwise, only the homes of these students are returned.
 
     Hidden folders, links and `lost+found` are not home folders. Raises HandoutError if `folder` cannot be
     listed.

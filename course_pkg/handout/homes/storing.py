@@ -19,7 +19,7 @@ from course_pkg.handout.homes.work import WorkFile
 
 
 def store(folder: Path, files: Sequence[WorkFile]) -> None:
-    """Write the work of one student to `folder`; each file keeps its modification time.
+    """Write the work of one student to the folder `folder`; each file keeps its modification time.
 
     Other notebooks and packages in the folder are not changed. Raises OSError if a file cannot be written.
     """

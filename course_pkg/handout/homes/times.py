@@ -53,7 +53,7 @@ class TimesTable:
         self._rows = self._read(folder)
 
     def replace(self, units: Collection[tuple[str, str]], rows: Iterable[Row]) -> None:
-        """Remove the rows of the notebooks and packages in `units`, add `rows`, and write the table."""
+        """Replace the rows of the notebooks and packages in `units` by the new rows, and write the table."""
         kept = [row for row in self._rows if row.unit not in units]
         self._rows = sorted([*kept, *rows])
         text = io.StringIO(newline="")

@@ -62,7 +62,7 @@ class Refused(HandoutError):
 
 @dataclass
 class Walk:
-    """A search in a workspace: the packages to find, the packages found, and the remaining limits."""
+    """A search in a workspace: the packages to find, the packages that it found, and the remaining limits."""
 
     asked: frozenset[str]
     found: set[str] = field(default_factory=set)  # The set contains the names of the packages' folders.

@@ -36,9 +36,9 @@ class Graph:
     """A graph that this command uses until leave() is called.
 
     `uri` is the address of the master. `files` are the file descriptors of the private network's namespaces.
-    If `files` is empty, the graph uses the network of this machine. In this case, `reason` says why, or is ""
-    if the user asked for the network of this machine. After wait_for_master(), `outgoing` is true if programs
-    in the private network can connect to other computers.
+    If `files` is empty, the graph uses the network of this machine. In this case, `reason` says why there is
+    no private network; it is "" if the user asked for the network of this machine. After wait_for_master(),
+    `outgoing` is true if programs in the private network can connect to other computers.
     """
 
     def __init__(
@@ -139,7 +139,7 @@ def _running(folder: Path) -> Graph | None:
 
 
 def _connected(path: Path) -> socket.socket | None:
-    """Return a connection to the holder process whose socket is at `path`.
+    """Return a connection to the holder process whose socket is at the path `path`.
 
     If the holder has ended, remove the socket and return None.
     """
@@ -178,7 +178,7 @@ def _start(which: Which, folder: Path) -> Graph:
 
 @contextmanager
 def _short(path: Path) -> Iterator[str]:
-    """Yield a short name for `path`, because the name of a Unix socket has at most 107 bytes."""
+    """Yield a short name for the path, because the name of a Unix socket has at most 107 bytes."""
     folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
     try:
         yield f"/proc/self/fd/{folder}/{path.name}"

@@ -17,9 +17,9 @@ from typing import NoReturn
 
 from course_pkg.sandbox.linux import namespaces
 
-ENTER = "nsenter"  # a program of util-linux
-# Each key is a number of file descriptors of a graph. Each value contains the kinds of the namespaces that
-# they refer to.
+ENTER = "nsenter"  # nsenter is a program of util-linux.
+# A graph has at most two file descriptors. For each number of file descriptors, this dict contains the kinds
+# of namespaces to which they refer.
 KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}
 
 
@@ -50,7 +50,7 @@ def enter(files: Sequence[int]) -> None:
 
 
 def entering(files: Sequence[int]) -> list[str]:
-    """Return a prefix for a command line; the prefix runs the command in the namespaces of `files`.
+    """Return a prefix for a command line; the prefix runs the command in these namespaces.
 
     `files` contains file descriptors. The prefix works only while this process keeps them open.
     """

@@ -10,7 +10,7 @@ from course_pkg.lab.shell import SHELL
 
 
 def settings_for(graph: Graph | None) -> dict[str, object]:
-    """Return the settings that put kernels and terminals on `graph`.
+    """Return the settings that put kernels and terminals on the graph `graph`.
 
     The keys of the result are the names of Jupyter's traits.
 

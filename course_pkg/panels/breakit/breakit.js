@@ -1,4 +1,5 @@
-/* The lab: a row of cases, the open case with the outputs of its tools, and an answer. The model holds all state. */
+/* The panel "Break it": a row of cases, the open case with the outputs of its tools, and an answer. The
+   model holds all state. */
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { block, lookTitle } from "./parts.js";
 

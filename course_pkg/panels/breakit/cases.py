@@ -89,7 +89,10 @@ def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
 
 
 def _could_be(fault: Fault, other: Fault) -> bool:
-    """Return whether the diagnosis of `other` is wrong for `fault`, but the symptoms are similar."""
+    """Return whether the diagnosis of `other` is a useful wrong choice for `fault`.
+
+    Such a diagnosis is wrong for the fault, but the two faults have similar symptoms.
+    """
     same = other.name == fault.name or other.name in fault.unlike or fault.name in other.unlike
     return other.look.split()[0] == fault.look.split()[0] and not same
 

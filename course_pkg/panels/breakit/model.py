@@ -163,7 +163,7 @@ class LabModel(Generic[SceneType]):
         self._worker.do(self._undo)
 
     def close(self, timeout: float = 15.0) -> None:
-        """Undo the current fault; wait at most `timeout` s until the fault is undone."""
+        """Undo the current fault, and wait until it is undone, for at most `timeout` s."""
         self.undo()
         self._worker.finish(timeout)
 

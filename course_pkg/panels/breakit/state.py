@@ -17,7 +17,7 @@ class ToolUse(TypedDict):
 
 
 class Verdict(TypedDict, total=False):
-    """The result for the student's answer, or the solution.
+    """The verdict on the student's answer; it is also used to show the solution.
 
     `server` is the text of the server's program, if the case has a server.
     """

@@ -44,7 +44,7 @@ class BreakIt(Panel):
     def record(self, cases: Mapping[str, Iterable[str]]) -> None:
         """Run tools on some cases, and store the outputs of the tools for a page without a kernel.
 
-        The stored page shows the last case of `cases`.
+        The stored page shows the last of these cases.
 
         The keys of `cases` are names of faults, and the values are names of tools: {"stale": ["services",
         "ping"]}.

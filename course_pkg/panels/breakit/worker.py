@@ -10,7 +10,7 @@ from collections.abc import Callable
 class Worker:
     """Runs jobs one after another on a thread; the thread ends when the queue is empty.
 
-    If a job raises an error, the thread calls `failed` with this error.
+    If a job raises an error, the thread calls the function `failed` with this error.
     """
 
     def __init__(self, failed: Callable[[Exception], None]) -> None:
@@ -20,7 +20,7 @@ class Worker:
         self._thread: threading.Thread | None = None
 
     def do(self, job: Callable[[], None]) -> None:
-        """Add `job` to the queue, and return at once."""
+        """Add a job to the queue, and return at once."""
         with self._turn:
             self._jobs.append(job)
             if self._thread is None:
@@ -28,12 +28,12 @@ class Worker:
                 self._thread.start()
 
     def drop(self) -> None:
-        """Remove all jobs that have not started from the queue."""
+        """Remove from the queue all jobs that have not started yet."""
         with self._turn:
             self._jobs.clear()
 
     def finish(self, timeout: float) -> bool:
-        """Wait at most `timeout` s until all jobs are done; return whether all jobs are done."""
+        """Wait until all jobs are done, for at most `timeout` s; return whether all jobs are done."""
         thread = self._thread
         if thread is not None and thread is not threading.current_thread():
             thread.join(timeout)

@@ -1,4 +1,5 @@
-/* Choices: a row for each case, and one button. After a press, each row shows whether the choice fits and why. */
+/* Choices: a row for each case, and one button. After a press of this button, each row shows whether the
+   choice is right, and the reason. */
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 
 /** @typedef {{chosen: string, fits: boolean, answer: string, reason: string}} Verdict */
@@ -19,7 +20,7 @@ class ChoicesView {
     this.live = true;
     this.asked = false; // true if the button was pressed before the student decided all cases
     /** @type {Map<number, string>} */
-    this.sent = new Map(); // the options by case that the kernel has not confirmed yet
+    this.sent = new Map(); // for each case, the option that the kernel has not confirmed yet
     this.rows = model.get("cases").map((/** @type {string} */ text, /** @type {number} */ number) => this.#row(text, number));
     this.status = h("p", { class: "ros-standing", role: "status", "aria-live": "polite", tabindex: "-1" });
     this.button = h("button", { type: "button", class: "ros-main", onclick: () => this.#press() });

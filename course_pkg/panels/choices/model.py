@@ -37,7 +37,7 @@ class ChoiceRecord:
 
     `compared` is the time (ISO 8601 in UTC) when the reasons were first shown; it is "" before that time.
     `first` contains the choices at the time `compared`; later choices do not change `first`. `fit` is the
-    number of choices in `first` that were the expected options. `shown` is True while the panel shows the
+    number of choices in `first` that were expected options. `shown` is True while the panel shows the
     reasons.
     """
 

@@ -97,7 +97,7 @@ def choose(
     options: Sequence[str] = OPTIONS,
     cases: Iterable[tuple[str, str, str]] = CASES,
 ) -> Choices:
-    """Return a panel in which the student chooses one of `options` for each case.
+    """Return a panel in which the student chooses one of the options for each case.
 
     `key` is `chapter.name`. Each case is a tuple (text, expected option, reason). The panel shows text
     between backticks as code. By default, the panel has ten cases with the options topic, service and action.

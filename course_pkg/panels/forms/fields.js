@@ -212,7 +212,8 @@ function put(tree, path, value) {
   steps.reduce((branch, key) => branch[key], tree)[last] = value;
 }
 
-/** Returns the tree with empty texts. Drafts with the same result need the same controls.
+/** Returns a copy of the tree in which all texts are empty. Drafts with the same result need the same
+ * controls.
  * @param {any} tree @returns {any} */
 function shape(tree) {
   if (Array.isArray(tree)) return tree.map(shape);

@@ -20,7 +20,7 @@ Values: TypeAlias = Mapping[str, Plain]
 
 
 class Check(TypedDict, total=False):
-    """The result of checking a form: an error for each wrong field, or commands that send the same values.
+    """The result of checking a form: an error for each wrong field, or commands that send the form's values.
 
     `refused` counts the clicks that had no effect because a field was wrong. The page compares `refused` with
     the previous value to notice such a click.
@@ -28,9 +28,9 @@ class Check(TypedDict, total=False):
 
     errors: dict[str, str]
     refused: int
-    shell: str  # Terminal commands that make the same service call.
+    shell: str  # These terminal commands make the service call of the form.
     python: str
-    once: str  # The terminal command that publishes one message.
+    once: str  # This terminal command publishes one message.
     often: str
 
 
@@ -84,7 +84,7 @@ class MessageForm:
         return self.message.parse({**self.blank, **draft})
 
     def filled(self, draft: Draft, values: Values) -> Draft:
-        """Return a copy of `draft` in which `values` replace the previous texts.
+        """Return a copy of the draft in which the values replace the previous texts.
 
         Raises FieldError if a value is not valid for its field.
         """
@@ -92,7 +92,7 @@ class MessageForm:
         return {**draft, **{name: formatted[name] for name in values}}
 
     def formatted(self, values: Values) -> Draft:
-        """Return `values` as strings for the input fields of the form."""
+        """Return the values as strings for the input fields of the form."""
         return compact(self.message.fields, self.message.format(values))
 
 
@@ -103,7 +103,7 @@ def correction(error: FieldError) -> str:
 
 
 def compact(fields: Sequence[Field], strings: Mapping[str, StringTree]) -> Draft:
-    """Return a copy of `strings` in which a time is one number of seconds, and a long array is one line.
+    """Return a copy of the strings: each time is one number of seconds, and each long array is one line.
 
     Only a long array of numbers or booleans is changed into one line of text.
     """
@@ -136,7 +136,7 @@ def _seconds(secs: int, nsecs: int) -> str:
 
 
 def rows(fields: Sequence[Field], strings: Mapping[str, StringTree], limit: int = LIMIT) -> list[Row]:
-    """Return a table with a row for each value in `strings`, but with at most `limit` rows."""
+    """Return a table with a row for each value in `strings`; the table has at most `limit` rows."""
     lines = list(islice(_fields(fields, strings, 0), limit + 1))
     if len(lines) > limit:
         lines[limit - 1 :] = [Row(depth=0, name="…", type="", text="more values than are shown here")]
@@ -144,7 +144,7 @@ def rows(fields: Sequence[Field], strings: Mapping[str, StringTree], limit: int 
 
 
 def summary(lines: Sequence[Row], width: int = 72) -> str:
-    """Return the values of a table in one line of at most `width` characters."""
+    """Return the values of a table in one line; `width` is the maximum number of characters."""
     line = ", ".join(f"{row['name']} {row['text']}" for row in lines if row["text"])
     return line if len(line) <= width else line[: width - 1] + "…"
 

@@ -9,7 +9,7 @@ export function command(label, pre, what) {
 
 /** @typedef {{depth: number, name: string, type: string, text: string}} Row */
 
-/** Returns a message as a table, or the text `empty` if the message has no fields.
+/** Returns a message as a table, or the given text if the message has no fields.
  * @param {Row[]} rows @param {string} empty */
 export function valueTable(rows, empty) {
   if (!rows.length) return h("p", { class: "ros-muted", text: empty });

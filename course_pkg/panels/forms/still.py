@@ -63,7 +63,7 @@ def draw_values(paper: Paper, rows: Sequence[State], empty: str) -> None:
 
 
 def draw_commands(paper: Paper, title: str, commands: Sequence[tuple[str, str]]) -> None:
-    """Draw each text of `commands` with its label; draw nothing if all texts are empty."""
+    """Draw the text of each command with its label; draw nothing if all texts are empty."""
     shown = [(label, text) for label, text in commands if text]
     if shown:
         paper.write(title, HEADING)

@@ -81,7 +81,7 @@ class RateMeter:
 
     @property
     def rate(self) -> float | None:
-        """Messages per second, rounded; None if there are too few counts."""
+        """The rounded number of messages per second, or None if there are too few counts."""
         return self._shown
 
     def _forget_former_rate(self) -> None:
@@ -108,7 +108,10 @@ class RateMeter:
 
 
 def plainest(rate: float, tolerance: float) -> float:
-    """Round `rate` to the fewest significant digits (1 to 3) with an error of at most `tolerance`."""
+    """Return the rate with as few significant digits (1 to 3) as the allowed error permits.
+
+    The error is at most `tolerance`.
+    """
     if rate <= 0:
         return 0.0
     for digits in range(3):
@@ -171,7 +174,7 @@ class GraphActivity:
         self._carried: dict[str, list[Traffic]] = defaultdict(list)
 
     def read(self, activity: Activity) -> None:
-        """Add the counts in `activity`, which were read at the same time."""
+        """Add the counts in `activity`, which were all read at the same time."""
         self.seen = activity
         self._rates.read(activity)
         self._carried.clear()

@@ -1,7 +1,9 @@
-/* The lines of calls, from the caller to the service. This code, and not graphviz, draws the lines. */
+/* The lines of calls, from the caller to the service. This code draws the lines; graphviz does not draw
+   them. */
 
 const SVG = "http://www.w3.org/2000/svg";
-const BENDS = [0.15, -0.15, 0.3, -0.3, 0.5, -0.5]; // bends to both sides, divided by the length of the line; the bend that crosses the fewest shapes is used
+// Each bend is a fraction of the length of the line; the code uses the bend that crosses the fewest shapes.
+const BENDS = [0.15, -0.15, 0.3, -0.3, 0.5, -0.5];
 const SAMPLES = 16;
 
 /** @typedef {{x: number, y: number}} Point */
@@ -33,13 +35,14 @@ export function callLine(from, to, others, age, waits) {
   return line;
 }
 
-/** Returns a curve from border to border. @param {Place} from @param {Place} to @param {number} bend */
+/** Returns a curve from the border of one shape to the border of the other shape.
+ * @param {Place} from @param {Place} to @param {number} bend */
 function way(from, to, bend) {
   const top = { x: (from.x + to.x) / 2 - bend * (to.y - from.y), y: (from.y + to.y) / 2 + bend * (to.x - from.x) };
   return { start: border(from, top), top, end: border(to, top) };
 }
 
-/** Returns the point where the line from a shape's centre to `point` crosses the shape's border.
+/** Returns the point where a shape's border crosses the line from the shape's centre to another point.
  * @param {Place} shape @param {Point} point @returns {Point} */
 function border(shape, point) {
   const [dx, dy] = [point.x - shape.x, point.y - shape.y];

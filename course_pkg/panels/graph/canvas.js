@@ -2,9 +2,9 @@
 import { freshId, h, say, setAttribute } from "../kit.js";
 import { callLine, place } from "./calls.js";
 
-const SMALLEST = 0.65; // The automatic scale is not smaller than this, because smaller names cannot be read.
+const SMALLEST = 0.65; // The automatic scale is not smaller than this value, because smaller names cannot be read.
 const STEP = 1.25;
-const FADE = 30; // A finished call is shown for this many s.
+const FADE = 30; // The drawing shows a finished call for this many s.
 
 export class Canvas {
   /** @param {(key: string, folded: boolean | null) => void} picked is called after a click on a shape */
@@ -111,11 +111,11 @@ export class Canvas {
     this.#fit();
   }
 
-  /** Scrolls to the start of the drawing. If the drawing is wide, this is the middle of its left side; if it is high,
-   * the middle of its top. */
+  /** Scrolls to the start of the drawing. The start of a wide drawing is the middle of its left side, and
+   * the start of a high drawing is the middle of its upper side. */
   #centre() {
     const [down, across] = [this.el.scrollHeight - this.el.clientHeight, this.el.scrollWidth - this.el.clientWidth];
-    if (!this.el.clientWidth) return; // the drawing is not visible yet
+    if (!this.el.clientWidth) return; // The drawing is not visible yet.
     this.fresh = false;
     if (this.#natural().width > this.#natural().height) this.el.scrollTop = down / 2;
     else this.el.scrollLeft = across / 2;
@@ -135,7 +135,8 @@ export class Canvas {
     return { width: box?.width || 1, height: box?.height || 1 };
   }
 
-  /** Sets the size of the drawing: its natural size, or a smaller one that fits the width and can still be read. */
+  /** Sets the size of the drawing: its natural size, or a smaller size that fits the width and can still
+      be read. */
   #fit() {
     const svg = /** @type {SVGSVGElement | null} */ (this.el.firstElementChild);
     const { width, height } = this.#natural();

@@ -5,7 +5,7 @@ import { Canvas } from "./canvas.js";
 import { recordingOf } from "./recording.js";
 import { pairs } from "./sentences.js";
 
-const TICK = 250; // While a recording plays, the fading lines are drawn every TICK ms.
+const TICK = 250; // While a recording plays, this code draws the fading lines every TICK ms.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -176,7 +176,8 @@ class GraphView {
     if (!now || (now === before && step === this.step)) return;
     this.moment = now;
     this.step = step;
-    setAttribute(this.details, "aria-live", this.replay.playing ? "off" : "polite"); // While the recording plays, a screen reader would read too much.
+    // While the recording plays, the text changes often, so a screen reader would read too much.
+    setAttribute(this.details, "aria-live", this.replay.playing ? "off" : "polite");
     if (before?.scene === now.scene) return this.#drawActivity();
     // While the recording plays, the height of the canvas is constant, so the text below does not jump.
     this.canvas.el.style.minHeight = `${this.canvas.el.offsetHeight}px`;
@@ -188,7 +189,7 @@ class GraphView {
     return this.recording && this.moment ? this.recording.clock(this.replay.time) : null;
   }
 
-  /** Called after each second, because texts such as "5 s ago" change. */
+  /** Updates the texts every second, because texts such as "5 s ago" change. */
   tick() {
     if (this.chosen.startsWith("service ")) this.#drawDetails();
   }

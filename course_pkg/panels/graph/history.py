@@ -41,7 +41,9 @@ class _Moment(NamedTuple):
 
 
 class History:
-    """The latest changes of the panel: at most `moments` entries, with at most `size` bytes of JSON.
+    """The latest changes of the panel; `moments` is the maximum number of entries.
+
+    `size` is the maximum size of the JSON text in bytes.
 
     Changes are recorded only between start() and stop().
     """
@@ -52,7 +54,7 @@ class History:
         self.running = False
 
     def start(self, at: float, scene: Scene, activity: ActivityState) -> None:
-        """Start a new recording at `at` (s since the epoch).
+        """Start a new recording at the time `at` (s since the epoch).
 
         The first entry of the recording contains `scene` and `activity`.
         """
@@ -79,7 +81,7 @@ class History:
             self._moments.popleft()
 
     def state(self, until: float) -> HistoryState:
-        """Return the recording until `until` (s since the epoch), or {} if nothing has changed."""
+        """Return the recording until the time `until` (s since the epoch), or {} if nothing has changed."""
         if len(self._moments) < 2:
             return {}
         began, scenes = self._moments[0].at, self._scenes()

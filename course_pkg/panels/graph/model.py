@@ -222,7 +222,7 @@ class GraphModel:
         return self._counts.state(self._whole, alive, self._box)
 
     def _box(self, key: str) -> str:
-        """Return `key`, or the key of the folded namespace that hides the shape with this key."""
+        """Return the key itself, or the key of the folded namespace that hides the shape with this key."""
         boxes = [each for each in (self._shown or Picture()).shapes if each.kind is Kind.SPACE]
         name = key.split(" ", 1)[1]
         return next((each.key for each in boxes if name.startswith(each.name)), key)

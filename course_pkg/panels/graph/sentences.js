@@ -6,7 +6,7 @@ import { h } from "../kit.js";
 /** @typedef {{notes?: Record<string, string>, details?: Record<string, [string, string][]>,
  *   callers?: Record<string, Caller[]>, calls?: {tail: string, head: string, last: number, running: number}[]}} Activity */
 
-/** Returns each fact of a shape, and its activity.
+/** Returns the details of a shape: its facts and its activity.
  * @param {Fact} fact @param {Activity} activity
  * @param {number | null} now in s since the epoch, for texts such as "5 s ago"; null for the time of day
  * @returns {HTMLElement[]} */
@@ -45,7 +45,8 @@ function calls(caller, now) {
   return caller.running && !caller.gone ? `${count}, waits for the response` : `${when(caller.last, now)}, ${count}`;
 }
 
-/** Returns how long ago a call was, in steps, because the text should change rarely. A saved picture shows the time of day.
+/** Returns a text that says how long ago a call was. The text has coarse steps, so it changes rarely. A saved
+ * picture shows the time of day instead.
  * @param {number} last in s since the epoch @param {number | null} now */
 function when(last, now) {
   if (now === null) return `at ${new Date(1000 * last).toTimeString().slice(0, 8)}`;

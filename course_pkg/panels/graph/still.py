@@ -93,7 +93,7 @@ def _roles(state: State) -> str:
 
 
 def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
-    """Return a copy of `element` for a still picture.
+    """Return a copy of the element for a still picture.
 
     In the copy, colours are attributes, and elements that only an interactive page needs are left out.
     """

@@ -61,7 +61,7 @@ class _PredictionPanel(Panel):
 class Question(_PredictionPanel):
     """A panel that asks a question before the student runs a program.
 
-    The student selects one of `choices`; if `choices` is empty, the student types any text.
+    The student selects one of the choices; if `choices` is empty, the student types any text.
     """
 
     question = Unicode().tag(sync=True)

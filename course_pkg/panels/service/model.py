@@ -33,7 +33,7 @@ LOGGER_SERVICES = ("/get_loggers", "/set_logger_level")
 
 
 class Caller(Protocol):
-    """Calls one service; another thread can end the running call with `cancel`."""
+    """Calls one service; another thread can end the running call with the method `cancel`."""
 
     def call(self, request: genpy.Message, /, *, timeout: float) -> genpy.Message:
         """Send a request message and return the response message; wait for at most `timeout` s."""
@@ -124,7 +124,7 @@ class ServiceModel:
                 self._changed(outcome={"phase": "idle"}, **self._fresh())
 
     def edit(self, draft: Draft) -> None:
-        """Store the texts of the form; report their errors, or the commands that make the same call."""
+        """Store the texts of the form; report the errors in them, or the commands that make this call."""
         with self._turn:
             if self.form:
                 self.draft = draft
@@ -172,7 +172,7 @@ class ServiceModel:
         return outcome
 
     def record(self, inputs: Iterable[Values], deadline: str) -> list[Entry]:
-        """Call the service once for each of `inputs`; return an entry with the outcome for each call."""
+        """Call the service once for each of the inputs; return an entry with the outcome for each call."""
         kept: list[Entry] = []
         for values in inputs:
             with self._turn:

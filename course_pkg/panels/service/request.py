@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import genpy
 
 DEADLINE = "@deadline"  # No field has this name, because a field's name cannot contain "@".
-LONGEST = 3600.0  # s
+LONGEST = 3600.0  # The time is in s.
 
 Phase = Literal["idle", "running", "done", "failed", "cancelled"]
 
@@ -76,7 +76,7 @@ class Entry(TypedDict, total=False):
 
 
 class RequestForm(MessageForm):
-    """The form for the request of `service`; `kind` is the type of the service."""
+    """The form for the request of the service `service`; `kind` is the type of the service."""
 
     def __init__(self, service: str, kind: ServiceType) -> None:
         super().__init__(

@@ -1,10 +1,11 @@
-/* The service panel: pick a service, fill in its request, call it, read the response. The model holds all state. */
+/* The service panel: the student picks a service, fills in the request, calls the service, and reads the
+   response. The model holds all state. */
 import { FieldsForm } from "../forms/fields.js";
 import { command, valueTable } from "../forms/parts.js";
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { recorded } from "./recording.js";
 
-const SETTLE = 120; // The draft is sent if no key was pressed for this many ms.
+const SETTLE = 120; // The panel sends the draft if the student has pressed no key for this many ms.
 const LONG = 8; // If a form has more fields than this, the response is below the form instead of beside it.
 const SLOW = 1500; // If a click has no answer after this many ms, the panel shows the reason.
 
@@ -20,7 +21,8 @@ class ServiceView {
   /** @param {import("../kit.js").Model} model @param {AbortSignal} signal */
   constructor(model, signal) {
     this.model = model;
-    this.live = true; // true until the kernel does not answer; otherwise, "No kernel" would appear for a moment
+    // This is true until the kernel fails to answer; otherwise, "No kernel" would appear for a moment.
+    this.live = true;
     this.waiting = false;
     this.refused = model.get("check").refused ?? 0;
     this.request = new FieldsForm(() => this.#edited(), "This request has no fields.");
@@ -223,7 +225,7 @@ class ServiceView {
   /** @param {KeyboardEvent} event */
   #key(event) {
     if (event.key === "Escape") this.#cancel();
-    // JupyterLab stops the Enter key from submitting a form, so this code does it.
+    // JupyterLab stops the Enter key from submitting a form, so this code submits the form.
     if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement)) return;
     event.preventDefault();
     this.#call();

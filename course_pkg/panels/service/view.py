@@ -82,7 +82,7 @@ class ServicePanel(Panel):
         return self.response
 
     def record(self, inputs: Iterable[Values]) -> None:
-        """Call the service once for each of `inputs`, and store the outcomes for pages without a kernel."""
+        """Call the service once for each of the inputs, and store the outcomes for pages without a kernel."""
         self.publish(recording=self._model.record(inputs, self.deadline))
 
     def shown(self) -> None:

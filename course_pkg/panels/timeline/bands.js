@@ -6,7 +6,8 @@ const CLOSE = 3; // Events are not drawn separately if they are narrower and clo
 const MANY = 5; // A band contains at least this many calls or messages.
 const BANDS = { lookup: "calls", connect: "calls", request: "calls", wait: "calls", response: "calls", handler: "requests", publish: "messages", callback: "callbacks" };
 
-/** Returns the bands of the events in view. Events of the chosen exchange are not put into bands.
+/** Returns the bands of the events in view. Events of the chosen exchange (a call or a message) are not put
+ * into bands.
  * @param {import("./scene.js").Scene} scene @param {(time: number) => number} x the position of a time
  * @param {number} width px @param {number} chosen the key of the chosen exchange, or -1 @returns {Band[]} */
 export function bandsOf(scene, x, width, chosen) {

@@ -257,7 +257,8 @@ export class Drawing {
     this.#drawWord(pen, each, kind, left, wide, y, high);
   }
 
-  /** Writes a text into a bar, on a plain background if the bar is hatched, and nothing if there is no room.
+  /** Writes a text into a bar if there is room for the text. In a hatched bar, the text has a plain
+   * background.
    * @param {CanvasRenderingContext2D} pen @param {number} each @param {string} kind @param {number} left
    * @param {number} wide @param {number} y @param {number} high */
   #drawWord(pen, each, kind, left, wide, y, high) {

@@ -1,11 +1,14 @@
-/* The data of a timeline: events in typed columns, and the positions of lanes and rows. This module uses no page. */
+/* The data of a timeline: events in typed columns, and the positions of lanes and rows. This module does
+   not use the page. */
 
 /** @typedef {{length: number, kinds: string[], lanes: {node: string, rows: number}[], columns: Record<string, number[]>, strings: string[],
  *   arrows: [number, number][], waits: {calls: any[], streams: any[]}, idle: string[], unrecorded: [string, string][], notes: string[]}} Recorded */
 
 const HEAD = 22; // The name of a lane is this many px high.
 const GAP = 12; // The distance between two lanes is this many px.
-const ROWS = [[16, 20, 3], [32, 12, 2], [52, 8, 2], [Infinity, 4, 1]]; // Each entry: maximum number of rows, height of a row (px), distance between two rows (px).
+// Each entry contains the maximum number of rows, the height of a row (px) and the distance between two rows
+// (px).
+const ROWS = [[16, 20, 3], [32, 12, 2], [52, 8, 2], [Infinity, 4, 1]];
 
 /** All times are in µs. */
 export class Scene {
@@ -40,7 +43,7 @@ export class Scene {
     this.height = Math.max(y - GAP + 8, 40);
   }
 
-  /** Collects the events of each exchange, and the events that have an arrow. */
+  /** Collects the events of each exchange (a call or a message), and the events that have an arrow. */
   #tie() {
     /** @type {Map<number, number[]>} */
     this.exchanges = new Map();

@@ -31,8 +31,8 @@ CALLBACK, CALLBACK_EDGE = "#cfe0f7", "#3a6fb5"
 WORD, NAME = Style(11.0), Style(12.0, bold=True)
 NAMES = {"lookup": "look-up", "connect": "connect", "request": "request", "publish": "publish"}
 MARK = 14.0  # An event with a width of less than this (px) can be drawn as a small symbol instead of a bar.
-# Minimum distance in px between two arrows of messages (True) or of calls (False). Arrows that are closer to
-# each other are not drawn.
+# This is the minimum distance in px between two arrows of messages (True) or of calls (False). Arrows that
+# are closer to each other are not drawn.
 APART = {True: 8.0, False: 3.0}
 TICKS = 8  # maximum number of marks on the time axis
 HEAD = 7.0  # length of an arrowhead in px
@@ -204,7 +204,7 @@ def _draw_legend(paper: Paper) -> None:
 
 
 def ticks(length: float, most: int = TICKS) -> Sequence[tuple[float, str]]:
-    """Return the positions and the texts of the marks on an axis from 0 to `length`."""
+    """Return the positions and the texts of the marks on an axis that begins at 0 and ends at `length`."""
     if length <= 0:
         return [(0.0, "0")]
     ten = 10.0 ** math.floor(math.log10(length / most))

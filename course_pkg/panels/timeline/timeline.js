@@ -4,7 +4,7 @@ import { Drawing } from "./drawing.js";
 import { Scene } from "./scene.js";
 import { counted, duration, moment, parts, sentence, waiting } from "./sentences.js";
 
-const FINEST = 50; // The width of the page shows at least this time in µs.
+const FINEST = 50; // The width of the page stands for at least this many µs.
 const HINT = "Drag to move. Zoom with Ctrl + wheel, or with + and −. The keys ← and → move the drawing, ↑ and ↓ select an event, and 0 shows everything.";
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
@@ -78,7 +78,7 @@ class TimelineView {
   #listen() {
     this.observer = new ResizeObserver(([entry]) => {
       this.drawing.resize(Math.floor(entry.contentRect.width));
-      this.#drawNow(); // Without this, the page would show no drawing for a moment.
+      this.#drawNow(); // Without this call, the page would show no drawing for a moment.
     });
     this.observer.observe(this.window);
     this.paper = window.matchMedia("print"); // A printed page has other colours.
@@ -99,7 +99,7 @@ class TimelineView {
     const sideways = event.shiftKey ? event.deltaY : event.deltaX;
     if (event.ctrlKey) this.#zoom(Math.exp(Math.max(-100, Math.min(100, event.deltaY)) * 0.005), event.offsetX);
     else if (sideways) this.#move(sideways / this.drawing.width);
-    else return; // Without a key, the wheel scrolls the page.
+    else return; // If no key is pressed, the wheel scrolls the page.
     event.preventDefault();
   }
 

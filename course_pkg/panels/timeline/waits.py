@@ -109,7 +109,7 @@ def timeline_text(recording: Recording) -> str:
 
 
 def sentences(waits: Waits) -> list[str]:
-    """Return the sentences of `timeline_text` for these waits."""
+    """Return the sentences of timeline_text() for these waits."""
     lines = sorted(_called(each) for each in waits["calls"])
     lines += sorted(_published(each) for each in waits["streams"])
     return lines or ["Nothing was recorded."]

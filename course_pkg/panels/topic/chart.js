@@ -1,6 +1,6 @@
-/* A line chart of one number over time. It is drawn here, because the code is sent with every widget of a notebook, and
-   the smallest library that was considered, uPlot, has 50 kB. uPlot draws on a canvas, which is not sharp in print and
-   does not follow the theme. */
+/* A line chart of one number over time. This code draws the chart without a library, because a notebook
+   sends the code with every widget, and uPlot, the smallest library that was considered, has 50 kB. uPlot
+   draws on a canvas, which is not sharp in print and does not follow the theme. */
 import { axis, place, reading } from "../axes.js";
 import { h, say } from "../kit.js";
 
@@ -189,7 +189,8 @@ function near(value) {
   return Math.round(value * 10) / 10;
 }
 
-/** Calls `draw(width)` now and after each change of the element's width. Returns a function that stops this.
+/** Calls `draw(width)` now and after each change of the element's width. Returns a function that stops these
+ * calls.
  * @param {Element} element @param {(width: number) => void} draw */
 function whenWide(element, draw) {
   let before = 0;

@@ -38,7 +38,7 @@ ACTIONS = ("publish", "burst", "repeat")
 class About(TypedDict, total=False):
     """The topic, and the fields of its type; the page can plot the numeric fields.
 
-    `problem` is the reason that there is no form; it is empty if there is a form.
+    `problem` is the reason why there is no form, or "" if there is a form.
     """
 
     topic: str
@@ -142,7 +142,7 @@ class TopicModel:
             self._changed(connections=seen, about=self._about())
 
     def edit(self, draft: Draft) -> None:
-        """Store the texts of the form; report their errors, or the commands that publish the same message."""
+        """Store the texts of the form; report their errors, or the commands that publish this message."""
         with self._turn:
             if self._form:
                 self.draft = draft
@@ -188,7 +188,7 @@ class TopicModel:
         self._command("withdraw")
 
     def _checked(self) -> Check:
-        """Return the errors of the form, or the commands that publish the same message."""
+        """Return the errors of the form, or the commands that publish this message."""
         if not self._form:
             return {"errors": {}, "refused": self._refusals}
         check = self._form.checked(self.draft)

@@ -174,7 +174,7 @@ def _differs(kind: MessageType, name: str, md5: str) -> bool:
 
 
 def _md5(name: str, find: FindType) -> str:
-    """Return the MD5 of the type `name`, or "" if `find` does not know the type."""
+    """Return the MD5 of the type `name`, or "" if the function `find` does not find the type."""
     try:
         return find(name).md5 if name and name != ANY else ""
     except CourseError:

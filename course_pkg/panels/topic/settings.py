@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from course_pkg.errors import FieldError
 
 RATE, QUEUE = "@rate", "@queue"  # No field has these names, because a field's name cannot contain "@".
-SLOWEST, FASTEST = 0.1, 100.0  # 1/s
+SLOWEST, FASTEST = 0.1, 100.0  # The rates are in messages per second.
 LONGEST = 10_000  # The student can set the queue size of the publisher to at most this many messages.
 
 

@@ -6,7 +6,7 @@ import { freshId, h, kernelLink, same, say, send, setAttribute } from "../kit.js
 import { Chart } from "./chart.js";
 import { deliveries, figures, names, number, seconds, setting } from "./parts.js";
 
-const SETTLE = 120; // Typed texts are sent if no key was pressed for this many ms.
+const SETTLE = 120; // The panel sends typed texts if the student has pressed no key for this many ms.
 const SLOW = 1500; // If the kernel has not handled a click after this many ms, the panel shows the reason.
 const AGEING = 250; // The ages of the messages are updated every AGEING ms.
 const SPAN = 20; // The chart shows this many s.
@@ -272,7 +272,8 @@ class TopicView {
     say(this.waiting, "");
   }
 
-  /** JupyterLab stops the Enter key from submitting a form, so this code does it. @param {KeyboardEvent} event */
+  /** JupyterLab stops the Enter key from submitting a form, so this code submits the form.
+   * @param {KeyboardEvent} event */
   #key(event) {
     if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement)) return;
     event.preventDefault();

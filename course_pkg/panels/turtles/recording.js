@@ -5,7 +5,7 @@
  * @typedef {{x: number, y: number, theta: number}} Place */
 
 export const SIDE = 500; // The simulator's paper is this many px wide and high.
-export const DELAY = 150; // The picture is this many ms late, so the next position of each turtle is already known.
+export const DELAY = 150; // The picture has a delay of this many ms, so the next position of each turtle is already known.
 const WORLD = 11088.889; // The world is this many mm wide and high.
 const PEN = 3; // A pen has this default width in px, because no topic contains the width.
 
@@ -42,7 +42,7 @@ export class Player {
     this.time = time;
   }
 
-  /** Returns the positions of the turtles, also between two rows. @returns {[number, Place][]} */
+  /** Returns the positions of the turtles, also for a time between two rows. @returns {[number, Place][]} */
   places() {
     return [...this.here].map(([turtle, row]) => [turtle, between(row, this.#next(turtle), this.time)]);
   }
@@ -115,7 +115,8 @@ function colour(rgb) {
  * @returns {Place} */
 function between(row, next, time) {
   const part = next && next[0] > row[0] ? Math.min(Math.max((time - row[0]) / (next[0] - row[0]), 0), 1) : 0;
-  if (!next || Math.hypot(next[2] - row[2], next[3] - row[3]) > 1500) return { x: row[2], y: row[3], theta: row[4] }; // a teleport
+  // The turtle was teleported.
+  if (!next || Math.hypot(next[2] - row[2], next[3] - row[3]) > 1500) return { x: row[2], y: row[3], theta: row[4] };
   const turn = ((((next[4] - row[4] + 3142) % 6283) + 6283) % 6283) - 3142;
   return { x: row[2] + part * (next[2] - row[2]), y: row[3] + part * (next[3] - row[3]), theta: row[4] + part * turn };
 }

@@ -69,7 +69,7 @@ class Part(TypedDict):
 class TypeState(TypedDict):
     """The data of one type for the page.
 
-    `problem` is the reason that the type cannot be read, and `warning` is a note for the reader.
+    `problem` is the reason why the type cannot be read, and `warning` is a note for the reader.
 
     `file` and `text` (the path and the content of the file) are set even if the type cannot be read. `lines`
     contains commands and Python code that the reader can copy.

@@ -19,7 +19,7 @@ from course_pkg.panels.paper import (
 )
 
 HALVES = {"srv": "service type", "msg": "message type"}
-INDENT = 16.0  # px
+INDENT = 16.0  # The widths are in px.
 MOST = 40  # A request, a response or a message shows at most this many fields.
 
 

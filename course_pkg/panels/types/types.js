@@ -104,7 +104,9 @@ class TypeView {
     }));
   }
 
-  /** Returns a section to unfold. An unfolded section does not change when the type is read again. @param {string} path @param {(Node |
+  /** Returns a section that the reader can unfold. An unfolded section does not change when the type is read
+   * again.
+   * @param {string} path @param {(Node |
    * string)[]} title
    * @param {...(HTMLElement | null)} inside */
   #fold(path, title, ...inside) {

@@ -34,9 +34,9 @@ class Step(_Ends):
     `ms` is the time after the first step, `says` explains the step, and `bad` is True if the step is an
     error.
 
-    `pieces` describes the `size` bytes of the step. A request to the master, or the master's response, has
-    `text` instead of `pieces`. `connection` is the number of the connection, or 0 if the call has only one
-    connection.
+    `size` is the number of bytes of the step, and `pieces` describes these bytes. A request to the master, or
+    the master's response, has `text` instead of `pieces`. `connection` is the number of the connection, or 0
+    if the call has only one connection.
     """
 
     title: str

@@ -68,7 +68,7 @@ class ShortOfBytes(Exception):
 
 
 class Reader:
-    """Reads `data` from the beginning to the end, and collects the pieces."""
+    """Reads the bytes `data` from the beginning to the end, and collects the pieces."""
 
     def __init__(self, data: bytes) -> None:
         self.data = data
@@ -152,5 +152,5 @@ class Reader:
 
 
 def shortened(text: str, most: int = TEXT) -> str:
-    """Return the text; a text with more than `most` characters is cut and ends with "…"."""
+    """Return the text; a text longer than `most` characters is cut and ends with "…"."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -54,7 +54,8 @@ class WireView {
       h("span", { class: "ros-arrow", text: right ? "──▶" : "◀──" }), " ", h("code", { class: "ros-end", text: far }), " ",
       h("span", { class: "ros-title", text: `${step.connection ? `${step.connection}: ` : ""}${step.title}` }), " ",
       h("span", { class: "ros-size", text: step.size ? `${step.size.toLocaleString("en")} B` : "" }));
-    setAttribute(button, "aria-label", `${button.textContent?.trim()}: ${words}`); // Speech input needs the visible text in the name.
+    // For speech input, the accessible name must contain the visible text.
+    setAttribute(button, "aria-label", `${button.textContent?.trim()}: ${words}`);
     button.addEventListener("keydown", (event) => {
       const by = KEYS[/** @type {keyof KEYS} */ (event.key)];
       if (by === undefined) return;

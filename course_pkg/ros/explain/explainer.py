@@ -47,7 +47,7 @@ def explain(error: object) -> Explanation:
 
 
 def _of_exception(error: BaseException) -> Explanation:
-    """Return the explanation of `error`, or else of an exception that caused `error`.
+    """Return the explanation of an exception, or else of another exception that caused it.
 
     If no table contains the message of a CourseError, this message is the explanation.
     """

@@ -37,7 +37,7 @@ class ActionServer:
         self._stopped, self._goal_came = threading.Event(), threading.Event()
         self._server = actionlib.SimpleActionServer(name, kind, auto_start=False)
         self._server.register_goal_callback(self._goal_came.set)
-        # The thread gets no reference to `self`: with this reference, the ActionServer would never be
+        # The thread gets no reference to `self`, because with this reference, the ActionServer would never be
         # deleted.
         work = (self._server, execute, self._goal_came, self._stopped)
         self._thread = threading.Thread(target=_work, args=work, daemon=True)

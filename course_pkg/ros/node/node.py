@@ -82,14 +82,15 @@ class Node:
         """Run a program of a package as a process, and stop this node's earlier process with the same name.
 
         `name` is the name of the new node; several processes of one program need different names. The
-        arguments `__name:=…` and `__ns:=…` also set the node's name and namespace. Raises UnknownExecutable.
+        arguments `__name:=…` and `__ns:=…` also set the node's name and namespace. Raises UnknownExecutable
+        if the package has no such program.
         """
         start = partial(NodeProcess.rosrun, package, executable, *args, name=name)
         renamed = [arg for arg in map(str, args) if arg.startswith(("__name:=", "__ns:="))]
         return self._started(" ".join([name or f"{package}/{executable}", *renamed]), start)
 
     def keep(self, process: NodeProcess) -> None:
-        """End `process` when this node ends."""
+        """End the process `process` when this node ends."""
         self._processes[f"process {process.pid}"] = process
 
     def record(self) -> AbstractContextManager[Recording]:

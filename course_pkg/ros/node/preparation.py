@@ -143,7 +143,7 @@ def _header_arrives(sock: socket.socket, timeout: float) -> bool:
 
 
 def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
-    """Return whether `count` bytes arrive before the deadline.
+    """Return whether at least `count` bytes arrive before the deadline.
 
     With SO_RCVLOWAT, poll() waits until all bytes have arrived.
     """

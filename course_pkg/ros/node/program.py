@@ -46,7 +46,7 @@ def start_node(name: str) -> bool:
 
 
 def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
-    """Wait for a master, start the node `node`, and offer `services` until Ctrl-C.
+    """Wait for a master, start the node `node`, and offer the services until Ctrl-C.
 
     The keys of `services` are the names of the services.
     """
@@ -76,10 +76,10 @@ def undisturbed() -> Iterator[None]:
 
 
 def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Message:
-    """Start the node `node`, wait up to 5 s for `service`, call `service` once, and return the response.
+    """Start a node, wait up to 5 s for a service, call the service once, and return the response.
 
     `kind` is a service class, a ServiceType, or a name such as "std_srvs/Trigger". Raises ROSException if no
-    node serves `service` within 5 s, CallTimeout if the response takes longer than 5 s, and rospy's errors
+    node offers the service within 5 s, CallTimeout if the response takes longer than 5 s, and rospy's errors
     for a failed call. Raises MasterUnreachable at once if no master answers.
     """
     # Raise an error if no master answers, because init_node would wait for a master for ever.
@@ -91,7 +91,7 @@ def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Me
 
 
 def print_response(call: Callable[[], str]) -> int:
-    """Print the result or the error message of `call`, and return the exit status 0 or 1."""
+    """Print the result or the error message of the function `call`, and return the exit status 0 or 1."""
     try:
         print(call())  # noqa: T201 -- the program's result
     except (rospy.ROSException, rospy.ServiceException, CourseError) as error:
@@ -100,7 +100,7 @@ def print_response(call: Callable[[], str]) -> int:
 
 
 def complain(message: str, status: int) -> int:
-    """Print `message` to stderr and return `status`."""
+    """Print the message to stderr, and return the exit status `status`."""
     sys.stderr.write(f"{message}\n")
     return status
 
@@ -123,7 +123,7 @@ def number_parameter(name: str, default: float, least: float, most: float) -> fl
 
 
 def wait_until(condition: Callable[[], object], seconds: float) -> bool:
-    """Wait until `condition` is true; return False after `seconds` s, or when the node is shut down."""
+    """Wait until the condition is true; return False after `seconds` s, or when the node is shut down."""
     outcome = waiting.wait_until(
         lambda: "met" if condition() else rospy.is_shutdown() and "shut down", seconds, INTERVAL
     )

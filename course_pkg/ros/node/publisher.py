@@ -39,7 +39,7 @@ class Publisher:
     def publish(self, *args: object, **fields: object) -> None:
         """Publish a message; pass one message object, or its fields by position or by name.
 
-        Raises PublisherStopped after stop().
+        Raises PublisherStopped if the publisher was stopped.
         """
         with self._lock:
             if self._publisher is None:

@@ -27,7 +27,7 @@ class Watchdog:
         self._thread: threading.Thread | None = None
 
     def arm(self, deadline: float, action: Callable[[], None]) -> int:
-        """Run `action` after `deadline`, a value of time.monotonic(); return the argument for disarm()."""
+        """Run the action after its deadline (time.monotonic()); return the argument for disarm()."""
         number = next(self._numbers)
         self._armed[number] = (deadline, action)
         if self._thread is None or deadline < self._wake:

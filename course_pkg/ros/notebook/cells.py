@@ -62,7 +62,7 @@ class Cells:
         self._paused = 0
 
     def begin(self, cell: str | None, source: str = "") -> None:
-        """Begin a run of `cell`, and shut down the objects that the last run of this cell created."""
+        """Begin a run of the cell, and shut down the objects that the last run of this cell created."""
         if self._current is not None:
             self._depth += 1
             return
@@ -88,7 +88,7 @@ class Cells:
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 
     def created(self, thing: Hashable, close: Close) -> None:
-        """Record that the current run, if any, created `thing`; the function `close` shuts `thing` down."""
+        """Record that the current run, if any, created an object; the function `close` shuts it down."""
         if run := self.run:
             run.created[thing] = close
 
@@ -132,7 +132,7 @@ def _thread_ids() -> frozenset[int]:
 
 
 def _within_callback(frame: FrameType | None) -> bool:
-    """Return whether rospy called the function of `frame`, directly or indirectly."""
+    """Return whether rospy called the function of the stack frame, directly or indirectly."""
     while frame is not None:
         module = str(frame.f_globals.get("__name__", ""))
         if module.startswith(CALLBACK) and frame.f_code.co_name != "__init__":

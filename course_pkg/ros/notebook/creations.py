@@ -83,7 +83,10 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """If the master does not answer, rospy skips the unregistration during the block, and cannot hang."""
+    """Prevent rospy from waiting for ever for an unregistration if the master does not answer.
+
+    During the `with` block, rospy skips this unregistration.
+    """
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
     try:

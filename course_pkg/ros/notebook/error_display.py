@@ -26,7 +26,10 @@ LOGGER = "rosout"
 
 
 class ErrorDisplay:
-    """Shows each error of `shell` in at most 12 lines; `%tb` shows the whole traceback."""
+    """Shows each error in at most 12 lines; `%tb` shows the whole traceback.
+
+    `shell` is IPython's shell.
+    """
 
     def __init__(self, shell: InteractiveShell) -> None:
         self._shell = shell
@@ -83,7 +86,7 @@ class ErrorDisplay:
             self._all = False
 
     def _place(self, filename: str) -> str:
-        """Return the text for `filename` in an error message: a description of a cell, or the file's name."""
+        """Return the text for a file in an error message: a description of a cell, or the file's name."""
         if filename == self._source:
             return "This cell"
         kind, name = self._shell.compile.format_code_name(filename) or ("", filename)
@@ -123,7 +126,7 @@ class ThreadErrors(logging.Handler):
             self._show(ended.exc_value)
 
     def _show(self, error: BaseException) -> None:
-        """Show `error`, unless the same error is already shown below the current cell."""
+        """Show the error `error`, unless the same error is already shown below the current cell."""
         text = "\n".join(readable_traceback(error, self._place_of, HANDLER_HEADER))
         if text not in self._shown:
             self._shown.add(text)

@@ -48,7 +48,7 @@ class Program:
         return self._process.returncode
 
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
-        """Wait for `line` in the output, or for `service`; if both are given, wait for both.
+        """Wait for the text `line` in the output, for the service `service`, or for both if both are given.
 
         Without `line` and `service`, wait until the program ends.
 
@@ -74,7 +74,7 @@ class Program:
 
 
 class ProgramMagics:
-    """Adds %rosrun and %roslaunch to `shell`; both call the function `keep` with each new process."""
+    """Adds %rosrun and %roslaunch to IPython; both call the function `keep` with each new process."""
 
     def __init__(self, shell: InteractiveShell, cells: Cells, keep: Keep) -> None:
         self._cells = cells

@@ -20,7 +20,7 @@ def current_shell() -> InteractiveShell | None:
 
 
 class NotebookShell:
-    """Observes the cell runs of `shell`, and reports each run to `cells`."""
+    """Observes the cell runs of IPython's shell, and reports each run to the object `cells`."""
 
     def __init__(self, shell: InteractiveShell, cells: Cells) -> None:
         self._shell = shell

@@ -74,7 +74,7 @@ def _shortened(calls: list[list[str]], room: int) -> list[str]:
 
 
 def _before(error: BaseException, place_of: PlaceOf) -> list[str]:
-    """If another exception led to `error`, return a line about that exception; otherwise, return []."""
+    """If another exception led to the error, return a line about that exception; otherwise, return []."""
     former = error.__cause__ or (None if error.__suppress_context__ else error.__context__)
     frames = list(students_frames(former.__traceback__)) if former is not None else []
     if former is None or not frames:
@@ -101,5 +101,5 @@ def _message(error: BaseException) -> list[str]:
 
 
 def _rows(lines: list[str]) -> int:
-    """Return the number of rows that a front end needs for `lines`."""
+    """Return the number of rows that a front end needs for these lines."""
     return sum(-(-len(line) // WIDTH) or 1 for line in lines)

@@ -104,7 +104,7 @@ class PrivateMaster:
         return ready
 
     def _wait(self, process: SupervisedProcess) -> bool:
-        """Wait for a master on the port, or for the end of `process`.
+        """Wait for a master on the port, or for the end of the process.
 
         The result is true if `process` is the master on the port.
         """
@@ -119,9 +119,9 @@ class PrivateMaster:
 def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> None:
     """Return as soon as the master at ROS_MASTER_URI answers.
 
-    Ctrl-C interrupts this function, but it does not interrupt the wait in init_node(). The function polls the
-    master every `interval` s, and calls `warn` once if no master answers. The function raises
-    MalformedMasterUri if the URI is invalid, and NotAMaster if another program answers.
+    Ctrl-C interrupts this function, but it does not interrupt the wait in init_node(). `interval` is the time
+    in s between two polls of the master. The function calls the function `warn` once if no master answers.
+    The function raises MalformedMasterUri if the URI is invalid, and NotAMaster if another program answers.
     """
     client, warned = MasterClient(master_uri()), False
     while True:

@@ -43,14 +43,17 @@ class NodeProcess:
 
     @classmethod
     def rosrun(cls, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
-        """Run a package's node, as rosrun does; `name` renames the node. Raises UnknownExecutable."""
+        """Run a package's node, as rosrun does; `name` renames the node.
+
+        Raises UnknownExecutable if there is no such program.
+        """
         program = find_executable(package, executable)
         renamed = [f"__name:={name}"] if name else []
         return cls([str(program), *map(str, args), *renamed], label=name or f"{package}/{executable}")
 
     @classmethod
     def roslaunch(cls, package: str, file: str, *args: str) -> NodeProcess:
-        """Run a launch file with `args` such as name:=value.
+        """Run a launch file with arguments such as name:=value.
 
         When roslaunch ends, all its nodes end.
         """
@@ -87,7 +90,7 @@ class NodeProcess:
         )
 
     def wait_for_output(self, text: str, timeout: float = 30.0) -> None:
-        """Return as soon as the process has printed `text`.
+        """Return as soon as the process has printed the text `text`.
 
         Raises NodeFailed if the process ends first, or after `timeout` s; the message contains
         the last output.
@@ -110,7 +113,7 @@ class NodeProcess:
         self._process.signal(signal.SIGINT)
 
     def stop(self, grace: float = GRACE, *, unregister: bool = True) -> None:
-        """End the process with SIGINT, or with SIGKILL after `grace` s.
+        """End the process with SIGINT; if it still runs after the time `grace` (s), kill it with SIGKILL.
 
         If `unregister` is true, also remove the registrations that the process has left at the master.
         """
@@ -140,7 +143,7 @@ class NodeProcess:
         return f"<{self.label}, {'running' if self.running else 'ended'}>"
 
     def _serves(self, master: MasterClient, name: str) -> bool:
-        """Return whether this process is the registered server of `name`, and whether it answers."""
+        """Return whether this process is the registered server of the service, and whether it answers."""
         uri = master.lookup_service(name)
         if uri is None or port_of(uri) not in self._process.listening_ports():
             return False

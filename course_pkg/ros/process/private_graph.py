@@ -37,7 +37,8 @@ class PrivateGraph:
     def run(self, package: str, executable: str, *args: str) -> NodeProcess:
         """Run a package's node on this graph in a new process, and return when the node is registered.
 
-        Raises UnknownExecutable, and NodeFailed if the node is not on the graph after 15 s.
+        Raises UnknownExecutable if there is no such program, and NodeFailed if the node is not on the graph
+        after 15 s.
         """
         process = self.start(str(find_executable(package, executable)), *args)
         ready = wait_until(lambda: self._knows(process) or not process.running, READY, INTERVAL)
@@ -79,7 +80,7 @@ class PrivateGraph:
         return f"<a private graph with {master} and {alive} programs>"
 
     def _knows(self, process: NodeProcess) -> bool:
-        """Return whether a node of `process` is registered: `process` listens on the port of this node."""
+        """Return whether any registered node has a port that `process` listens on."""
         master = MasterClient(self.uri)
         try:
             nodes, _ = master.lookup_all(master.system_state().nodes, ())

@@ -88,8 +88,11 @@ class SupervisedProcess:
             with suppress(ProcessLookupError):
                 os.kill(self.pid, number)
 
-    def wait(self, timeout: float) -> bool:
-        """Wait up to `timeout` s; return whether all processes of the command have ended."""
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait up to `timeout` s; return whether all processes of the command have ended.
+
+        Without `timeout`, wait until they have ended.
+        """
         try:
             self._process.wait(timeout)
         except subprocess.TimeoutExpired:
@@ -115,7 +118,7 @@ class SupervisedProcess:
         return set()
 
     def end(self, grace: float = 2.0) -> None:
-        """End the command and all its descendants with SIGINT, and kill them after `grace` s.
+        """End the command and its descendants with SIGINT; after the time `grace` (s), kill them.
 
         In a forked child, this method does nothing.
         """
@@ -156,7 +159,7 @@ def listening_ports(pid: int) -> frozenset[int]:
 
 
 def _executed(pid: int) -> list[tuple[str, str]]:
-    """Return (SHA-256 sum, name) of the files that a process executes; if it has ended, an empty list."""
+    """Return (SHA-256 sum, name) of each file that a process executes, or [] if the process has ended."""
     try:
         name = Path(os.readlink(f"/proc/{pid}/exe")).name
         digest = hashlib.sha256(Path(f"/proc/{pid}/exe").read_bytes()).hexdigest()

@@ -71,7 +71,7 @@ class Supervisor:
         return os.getppid() == self.owner
 
     def _start(self, command: list[str], report: int) -> int:
-        failed, fail = os.pipe()  # The system closes `fail` as soon as the command is running.
+        failed, fail = os.pipe()  # The system closes the pipe `fail` as soon as the command is running.
         child = os.fork()
         if child == 0:
             _become(command, fail)

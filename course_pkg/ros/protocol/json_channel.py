@@ -37,7 +37,9 @@ class JsonChannel:
         return self._socket.fileno()
 
     def send(self, message: Mapping[str, object], timeout: float | None = None) -> None:
-        """Send one object; if the send buffer is full, wait up to `timeout` s until the receiver reads data.
+        """Send one object; if the send buffer is full, wait until the receiver reads data.
+
+        The time limit is `timeout` s.
 
         Raises ChannelBroken if the message is too long, ChannelClosed if the receiver has closed the channel,
         and ChannelTimeout after `timeout` s. After ChannelTimeout, the caller must close the channel, because
@@ -61,7 +63,7 @@ class JsonChannel:
                 line = line[sent:]
 
     def receive(self, timeout: float | None = None) -> dict[str, Json]:
-        """Wait up to `timeout` s for a whole line, and return the JSON object in it.
+        """Wait for a whole line, for at most `timeout` s, and return the JSON object in it.
 
         Raises ChannelTimeout after `timeout` s, ChannelClosed if the sender has closed the channel, and
         ChannelBroken if the line is too long or is not a JSON object.

@@ -39,7 +39,9 @@ class SystemState:
 
 
 class MasterClient(XmlRpcClient):
-    """Calls the master at `uri`; each call takes at most `timeout` s. Several threads may use one client.
+    """Calls the master at the address `uri`; each call takes at most `timeout` s.
+
+    Several threads may use one client.
 
     Every method may raise MasterUnreachable, MasterSilent and NotAMaster, and GraphError if the master
     refuses the call. The constructor raises MalformedMasterUri if `uri` is invalid.
@@ -113,7 +115,7 @@ class MasterClient(XmlRpcClient):
         return {topic: str(kind) for topic, kind in map(_pair, items(self._value("getTopicTypes")))}
 
     def get_param(self, name: str, default: RpcValue = None) -> RpcValue:
-        """Return the value of a parameter, or `default` if the parameter is not set."""
+        """Return the value of a parameter; return `default` if the parameter is not set."""
         code, _, value = items(self.ask("getParam", self.caller, name))
         return value if code == 1 else default
 
@@ -126,15 +128,18 @@ class MasterClient(XmlRpcClient):
         return items(self.ask("deleteParam", self.caller, name, timeout=timeout))[0] == 1
 
     def register_service(self, node: str, name: str, uri: str, node_uri: str) -> None:
-        """Register `node` as the server of `name` at `uri`; this replaces any other server."""
+        """Register a node as the server of the service `name`, at the address `uri`.
+
+        The registration replaces any other server of this service.
+        """
         self._value("registerService", name, uri, node_uri, caller=node)
 
     def register_publisher(self, node: str, topic: str, kind: str, node_uri: str) -> None:
-        """Register `node` as a publisher of `topic`."""
+        """Register a node as a publisher of the topic."""
         self._value("registerPublisher", topic, kind, node_uri, caller=node)
 
     def register_subscriber(self, node: str, topic: str, kind: str, node_uri: str) -> list[str]:
-        """Register `node` as a subscriber of `topic`; return the addresses of the topic's publishers."""
+        """Register a node as a subscriber of the topic; return the addresses of the topic's publishers."""
         publishers = items(self._value("registerSubscriber", topic, kind, node_uri, caller=node))
         return [str(uri) for uri in publishers]
 

@@ -34,7 +34,7 @@ class Registration:
 
 
 def registrations(master: MasterClient, nodes: Collection[str] | None = None) -> list[Registration]:
-    """Return the registrations of all nodes, or of `nodes`, sorted; this makes two requests to the master.
+    """Return the sorted registrations of all nodes, or of some nodes, with two requests to the master.
 
     All functions of this module raise GraphError if a request to the master fails.
     """
@@ -74,7 +74,7 @@ def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Regist
 
 
 def withdraw_below(master: MasterClient, prefix: str) -> list[Registration]:
-    """Unregister all nodes whose names begin with `prefix`, even if they are still running."""
+    """Unregister all nodes whose names begin with this prefix, even if they are still running."""
     nodes = [node for node in master.system_state().nodes if node.startswith(prefix)]
     return withdraw(master, registrations(master, nodes)) if nodes else []
 

@@ -82,11 +82,11 @@ class Snapshot:
 
 
 def look(uri: str | None = None, timeout: float = 2.0) -> Snapshot:
-    """Return the graph of the master at `uri`; the default is the master at ROS_MASTER_URI.
+    """Return the graph of the master at the address `uri`; the default is the master at ROS_MASTER_URI.
 
     Each request to the master takes at most `timeout` s. All services are probed together for at most 0.5 s,
-    and then all nodes for at most 0.5 s. Raises MasterUnreachable, MasterSilent, MalformedMasterUri,
-    NotAMaster.
+    and then all nodes for at most 0.5 s. Raises MasterUnreachable, MasterSilent, MalformedMasterUri or
+    NotAMaster if no master answers at the address.
     """
     master = MasterClient(uri or master_uri(), timeout)
     state, types = master.system_state(), master.topic_types()

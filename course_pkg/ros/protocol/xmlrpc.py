@@ -30,7 +30,7 @@ NO_ANSWER = (HTTPException, ExpatError, Fault, LookupError, TypeError, ValueErro
 
 
 class XmlRpcClient:
-    """Calls the methods of the XML-RPC server at `uri`; each call takes at most `timeout` s.
+    """Calls the methods of the XML-RPC server at the address `uri`; each call takes at most `timeout` s.
 
     Several threads may use one client. The constructor raises MalformedMasterUri if `uri` is invalid.
     """
@@ -43,10 +43,10 @@ class XmlRpcClient:
         weakref.finalize(self, _close, self._idle)
 
     def ask(self, method: str, *args: RpcValue, timeout: float | None = None) -> RpcValue:
-        """Call `method` and return its response value.
+        """Call the method `method`, and return the value in its response.
 
-        The time limit is the shorter of `timeout` s and the client's own timeout. Raises TimeoutError at the
-        time limit, and another OSError if no program accepts the connection. Raises one of the errors in
+        The time limit is the shorter of `timeout` (s) and the client's own timeout. Raises TimeoutError at
+        the time limit, and another OSError if no program accepts the connection. Raises one of the errors in
         NO_ANSWER if the response is not valid XML-RPC or is a fault.
         """
         deadline = time.monotonic() + self.limit(timeout)
@@ -95,14 +95,14 @@ def decode(body: bytes) -> RpcValue:
 
 
 def items(value: RpcValue) -> list[RpcValue]:
-    """Return `value` if it is a list; raises TypeError otherwise."""
+    """Return the value if it is a list; raises TypeError otherwise."""
     if not isinstance(value, list):
         raise TypeError(f"a list was expected, not {type(value).__name__}")
     return value
 
 
 def number(value: RpcValue) -> float:
-    """Return `value` if it is a number; raises TypeError otherwise."""
+    """Return the value if it is a number; raises TypeError otherwise."""
     if not isinstance(value, (int, float)):
         raise TypeError(f"a number was expected, not {type(value).__name__}")
     return value

@@ -28,16 +28,16 @@ LONGEST = 1 << 20
 CHUNK = 1 << 16  # One read returns at most this number of bytes.
 CALLER = "/course"
 
-Place = tuple[str, str]  # (a topic, the address of a node that publishes it)
+Place = tuple[str, str]  # The tuple contains a topic, and the address of a node that publishes on it.
 Received = Callable[[str, list[bytes]], None]
 
 
 class BulkReader:
     """Reads all topics of the given types, from start() to stop().
 
-    The reader calls `received` with a topic and its new messages (serialised, in order). The reader calls
-    `missing` with a topic that no longer has a publisher. The reader calls `done` after each read, and the
-    three functions run on the reader's thread.
+    The reader calls the function `received` with a topic and its new messages (serialised, in order). The
+    reader calls the function `missing` with a topic that no longer has a publisher. The reader calls the
+    function `done` after each read. All three functions run on the reader's thread.
     """
 
     def __init__(
@@ -82,7 +82,7 @@ class BulkReader:
                 stream.close()
 
     def _drain(self, streams: Streams) -> bool:
-        """Pass all new messages to `received`; return whether all streams are still open."""
+        """Pass all new messages to the function `received`; return whether all streams are still open."""
         ended = []
         for place, stream in streams.items():
             messages, goes_on = stream.read()

@@ -25,7 +25,10 @@ _SETTING = re.compile(r"(^|_)(min|max|increment|scan_time|field_of_view)(_|$)")
 
 
 def numbers(message: MessageType) -> list[str]:
-    """Return the paths of all numbers in a message; for an array, only the paths of the first elements."""
+    """Return the paths of all numbers in a message.
+
+    For an array, the result contains only the paths of the first elements.
+    """
     return [path for path, _ in _first_numbers(message)]
 
 
@@ -42,7 +45,7 @@ def measurement(message: MessageType) -> str:
 
 
 def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:
-    """Return a function that reads the number at `path` from a message's bytes.
+    """Return a function that reads the number at the path `path` from a message's bytes.
 
     If the message does not contain the number, the returned function returns NaN. Raises ValueError if the
     type does not have this path.

@@ -44,7 +44,7 @@ GRAPH_INTERVAL = 1.0  # This is the time in s between two requests to the master
 
 
 class TopicNode:
-    """Publishes and subscribes on `topic`, as a separate node."""
+    """Publishes and subscribes on the topic `topic`, as a separate node."""
 
     def __init__(self, channel: JsonChannel, topic: str) -> None:
         self._channel = channel

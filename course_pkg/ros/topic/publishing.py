@@ -22,10 +22,11 @@ CATCH_UP = 0.25
 
 
 class Timer:
-    """Calls `tick` `rate` times per second on a separate thread, until stop().
+    """Calls the function `tick` on a separate thread, until stop(); `rate` is in calls per second.
 
     A late tick does not delay the next ticks. A tick with a delay of more than `CATCH_UP` s is skipped, and
-    counted in `skipped`. If `tick` raises an exception, the timer calls `failed` with the exception and ends.
+    counted in `skipped`. If `tick` raises an exception, the timer calls the function `failed` with the
+    exception and ends.
     """
 
     def __init__(self, rate: float, tick: Callable[[], None], failed: Callable[[Exception], None]) -> None:
@@ -56,7 +57,7 @@ class Timer:
 
 
 class Commands:
-    """Publishes on `topic` when a command arrives.
+    """Publishes on the topic `topic` when a command arrives.
 
     The first message creates the publisher. A message with a different latch, queue size or type creates a
     new publisher.
@@ -73,7 +74,7 @@ class Commands:
         self._reached: int | None = None
 
     def publish(self, texts: dict[str, StringTree], *, latch: bool, queue: int, count: int = 1) -> None:
-        """Publish `count` messages with the values in `texts`, without a pause.
+        """Publish a message `count` times without a pause; `texts` contains the values of its fields.
 
         publish() and repeat() raise PublisherStopped if the type is not known yet, FieldError if a value is
         wrong, and GraphError without a master.
@@ -84,7 +85,7 @@ class Commands:
             self._publish(message)
 
     def repeat(self, texts: dict[str, StringTree], *, latch: bool, queue: int, rate: float) -> None:
-        """Publish the message `rate` times per second, until another command ends the repetition."""
+        """Publish the message repeatedly, until another command arrives; `rate` is in messages per second."""
         message = self._message(texts)
         self.stop()
         self._advertise(latch, queue)

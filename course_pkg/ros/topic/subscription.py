@@ -44,7 +44,7 @@ class ReceivedMessage:
 
 
 class TopicSubscription:
-    """Receives and counts the messages of `topic`, and stores the last messages."""
+    """Receives and counts the messages of the topic `topic`, and stores the last messages."""
 
     def __init__(self, topic: str) -> None:
         self.count = 0

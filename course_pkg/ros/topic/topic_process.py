@@ -31,7 +31,7 @@ PAUSES = (0.0, 0.5, 2.0)  # Each number is the time in s before an attempt to un
 
 
 class TopicProcess:
-    """A separate node on `topic`; it ends when end() is called, or when this process ends.
+    """A separate node on the topic `topic`; it ends when end() is called, or when this process ends.
 
     The function `reported` is called with this object and each report. The function `lost` is called with
     this object and an error message if the node ends without end(). `reported` and `lost` are called on

@@ -80,7 +80,7 @@ class ActivityPoller:
     def poll(self, snapshot: Snapshot, timeout: float = TIMEOUT) -> Activity:
         """Return the counts of all reachable nodes.
 
-        The poll takes up to `timeout` s, or up to twice this time if there are new connections.
+        The poll takes at most the time `timeout` (s), or twice this time if there are new connections.
         """
         uris = {node.name: node.uri for node in snapshot.nodes if node.reachable}
         probes = {name: callers_probe(uri) for name, uri in uris.items()}
@@ -111,7 +111,7 @@ class ActivityPoller:
 
 
 def callers_probe(uri: str) -> Probe:
-    """Return a probe for ask_all() that requests the statistics of the node at `uri`."""
+    """Return a probe for ask_all() that requests the statistics of the node at the address `uri`."""
     return rpc_probe(uri, STATISTICS)
 
 

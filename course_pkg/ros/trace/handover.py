@@ -41,7 +41,7 @@ def hand_over_at_exit() -> None:
 
 @contextmanager
 def handovers(node: str, uri: str, master: MasterClient) -> Iterator[None]:
-    """Let each node that ends during the `with` block send its record to the node at `uri`."""
+    """Let each node that ends during the `with` block send its record to the node at the address `uri`."""
     parameter = f"{PARAMETER}{node}_{next(recorder().numbers)}"
     own, announced = recorder(), False
     own.recordings += 1

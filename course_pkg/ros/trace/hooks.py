@@ -57,7 +57,7 @@ class Hook:
 def install_all(
     hooks: Sequence[Hook], module: ModuleType, transport: type, required: Sequence[Hook] = ()
 ) -> bool:
-    """Install all `hooks`, and make `module` create its connections with the class `transport`.
+    """Install all hooks, and make the module `module` create its connections with the class `transport`.
 
     If any hook does not fit, the function changes nothing and returns False. The hooks in `required` are
     checked, but not installed.

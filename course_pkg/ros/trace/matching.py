@@ -24,7 +24,8 @@ from course_pkg.ros.trace.recording import (
     SpanData,
 )
 
-TransferKey = tuple[str, str, int]  # (service or topic, connection, number of the message on this connection)
+# The tuple contains the service or topic, the connection, and the number of the message on it.
+TransferKey = tuple[str, str, int]
 
 
 @dataclass(frozen=True)

@@ -211,7 +211,7 @@ class Recorder:
             self._lasting.discard(span)
 
     def since(self, start: float) -> ProcessRecord:
-        """Return the record of all actions that were running at `start`, or that began later.
+        """Return the record of all actions that were running at the time `start`, or that began later.
 
         `start` is a value of time.monotonic().
         """

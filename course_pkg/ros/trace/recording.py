@@ -85,7 +85,9 @@ class Event:
 
 @dataclass
 class Recording:
-    """The events of all nodes on the graph during a `with` block; empty until the block has ended.
+    """The events of all nodes on the graph during a `with` block.
+
+    The recording is empty until the block has ended.
 
     `events` are sorted by their start. `nodes` are the nodes whose records are included. `unrecorded` gives
     the reason for each node without a record. `notes` describes all other missing data. `length` is in s, and
@@ -100,7 +102,7 @@ class Recording:
     length: float = 0.0
 
     def of(self, *kinds: str, name: str = "", node: str = "") -> tuple[Event, ...]:
-        """Return the events of these kinds, such as "wait", or of all kinds.
+        """Return the events of these kinds, such as "wait"; without a kind, return the events of all kinds.
 
         `name` and `node` select the events of one service or topic, and of one node.
         """

@@ -136,7 +136,10 @@ class Batch:
         self._index = 0
 
     def transfers(self, msg: genpy.Message) -> list[Transfer]:
-        """Return [(connection, message number, publisher)] of `msg`; pass messages in the batch's order."""
+        """Return [(connection, message number, publisher)] of a message.
+
+        Pass the messages in the order of the batch.
+        """
         for index in range(self._index, len(self._msgs)):
             if self._msgs[index] is msg and self._connection is not None:
                 self._index = index

@@ -126,7 +126,7 @@ def _look_up(name: str, relay: Relay, wire: Wire, timeout: float) -> None:
 
 
 def _type_of_server(name: str) -> ServiceType | None:
-    """Return the type that the server of `name` reports, or None if no server answers."""
+    """Return the type that the server of the service reports, or None if no server answers."""
     uri = MasterClient(master_uri()).lookup_service(name)
     if uri is None:
         return None

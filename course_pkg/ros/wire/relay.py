@@ -48,7 +48,7 @@ class RelayedConnection:
         return b"".join(chunk.data for chunk in self.chunks if chunk.from_client is from_client)
 
     def since(self, offset: int, *, from_client: bool) -> float:
-        """Return the time in s from `opened` to the arrival of a byte.
+        """Return the time in s from the opening of the connection to the arrival of a byte.
 
         `offset` is the index of the byte in the data of one direction, from 0.
         """
@@ -82,7 +82,7 @@ class Relay:
         return tuple(self._connections)
 
     def wait(self, timeout: float = CLOSE_TIMEOUT) -> None:
-        """Wait until the open connections have ended, or until `timeout` s have passed."""
+        """Wait until the open connections have ended, for at most `timeout` s."""
         deadline = time.monotonic() + timeout
         for thread in self._threads[1:]:
             thread.join(max(deadline - time.monotonic(), 0))
@@ -161,7 +161,7 @@ class Relay:
 def _copy(
     source: socket.socket, sink: socket.socket, from_client: bool, connection: RelayedConnection
 ) -> None:
-    """Forward the bytes from `source` to `sink`; after the last byte, end the stream to `sink`."""
+    """Forward the bytes from one socket to another; after the last byte, end the stream to the second one."""
     kept = 0
     # It is not an error if the connection was reset, or if close() ended the connection.
     with suppress(OSError):

@@ -78,7 +78,7 @@ def require_sandbox() -> None:
 
 
 def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) -> list[str]:
-    """Return the command that runs `command` in a sandbox.
+    """Return the command that runs the command `command` in a sandbox.
 
     Start the returned command with an empty environment. Inside the sandbox, only the course (without
     solutions and tests), ROS, and the paths in `readable` are visible, and all of them are read-only.
@@ -140,7 +140,7 @@ def _shadows(shown: Sequence[Path]) -> Iterator[str]:
 
 
 def _shown(source: Path, target: Path) -> Iterator[str]:
-    """Yield the options that mount `source` at `target`; every user can read the folders above `target`."""
+    """Yield the options that mount `source` at `target`; every user can read the folders above the target."""
     for parent in reversed(target.parents[:-1]):
         yield from ("--perms", "0755", "--dir", str(parent))
     yield from ("--ro-bind", str(source), str(target))
@@ -167,7 +167,7 @@ def clean_environment() -> dict[str, str]:
 
 
 def _invented(path: str, text: str) -> Path:
-    """Return a file that contains `text`, for all sandboxes of this checkout."""
+    """Return a file that contains the text, for all sandboxes of this checkout."""
     file = Places.of().own_data / "sandbox" / Path(path).name
     if not file.exists() or file.read_text("utf-8") != text:
         file.parent.mkdir(parents=True, exist_ok=True)

@@ -49,7 +49,7 @@ FORBIDDEN = (
 
 
 def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
-    """Run `work` without privileges, in new user and process namespaces, and with new folders in memory.
+    """Run a function without privileges, in new user and process namespaces, and with new folders in memory.
 
     Call this function in a forked process that is root in its user namespace. This function never returns:
     after the end of `work`, the function ends all processes that `work` started. If `may_write` is false,
@@ -131,7 +131,7 @@ def load_filter() -> None:
 
 
 def write_filter(path: Path) -> None:
-    """Write the filter of system calls to `path`, for bubblewrap."""
+    """Write the filter of system calls to the file at the path `path`, for bubblewrap."""
     with path.open("wb") as file:
         _filter().export_bpf(file)
 
@@ -161,7 +161,7 @@ def _wait_and_exit(child: int) -> NoReturn:
 
 
 def _reap_until(child: int) -> NoReturn:
-    """Act as the first process of a process namespace: reap orphans, and exit when `child` has ended."""
+    """Act as the first process of a process namespace: reap orphans, and exit when the child has ended."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     while os.wait()[0] != child:
         pass

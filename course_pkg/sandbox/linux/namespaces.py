@@ -75,7 +75,7 @@ def keep_mounts_private() -> None:
 
 
 def mount_memory(target: str, *, size: int = 0, files: int = 0, read_only: bool = False) -> None:
-    """Mount an empty folder in memory over `target`.
+    """Mount an empty folder in memory at the path `target`.
 
     `size` is the limit in bytes, and `files` is the limit for the number of files; 0 means the default.
 
@@ -99,7 +99,7 @@ def mount_processes() -> None:
 
 
 def bind(source: str, target: str) -> None:
-    """Make `source`, with all mounts inside `source`, also visible at `target`."""
+    """Make the folder `source`, with all mounts inside it, also visible at the path `target`."""
     _mount(source, target, "", MS_BIND | MS_REC, "")
 
 

@@ -70,7 +70,7 @@ def become(uid: int) -> None:
 
 
 def run_confined(work: Callable[[], None], uid: int) -> NoReturn:
-    """Run `work` in this forked process as the user `uid`, with limits and a filter of system calls."""
+    """Run a function in this forked process as the user `uid`, with limits and a filter of system calls."""
     os.umask(0o022)
     os.environ.update(USER="student", LOGNAME="student")
     confinement.set_limits()
@@ -103,7 +103,7 @@ def own_folder(student_folder: str) -> str:
 
 
 def hand_over(folder: str, uid: int) -> None:
-    """Make `uid` the owner of all files in `folder`, before a process of `uid` runs."""
+    """Make the user `uid` the owner of all files in the folder, before a process of this user runs."""
     for path in [Path(folder), *Path(folder).rglob("*")]:
         os.chown(path, uid, uid, follow_symlinks=False)
 
@@ -126,7 +126,7 @@ def clear(users: Users) -> None:
 
 
 def _kill_all(uid: int, killer: int) -> None:
-    """Kill all processes of `uid` in one system call, so that no process can fork before it is killed.
+    """Kill all processes of a user in one system call, so that no process can fork before it is killed.
 
     The killing process has the effective user id `uid`, so it may kill these processes. Its real and saved
     user ids are `killer`, so these processes cannot send signals to the killing process.
@@ -172,7 +172,7 @@ def _below(paths: Iterable[str]) -> Iterator[str]:
 
 
 def _items_of(folder: str, uids: set[int]) -> Iterator[os.DirEntry[str]]:
-    """Yield the entries directly in `folder` that belong to one of the users."""
+    """Yield the entries directly in the folder `folder` that belong to one of the users."""
     with suppress(OSError), os.scandir(folder) as items:
         for item in items:
             with suppress(OSError):
@@ -227,7 +227,7 @@ def _is_readable(path: str) -> bool:
 
 
 def _as_user(uid: int, work: Callable[[], str]) -> str:
-    """Return the result of `work`, which a forked process runs as the user `uid`."""
+    """Return the result of the function `work`, which a forked process runs as the user `uid`."""
     reading, writing = os.pipe()
     if not (pid := os.fork()):
         try:

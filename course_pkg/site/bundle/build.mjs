@@ -17,7 +17,8 @@ await writeFile("out/fonts.css", (await Promise.all(FONTS.map(face))).join(""));
 await writeFile("out/LICENSES.txt", (await Promise.all(PACKAGES.map(licence))).join("\n\n"));
 await copyFile("node_modules/axe-core/axe.min.js", "out/axe.min.js");
 
-/* Returns the CSS of a font face with the font's data, because a page in a folder may not load a font file. */
+/* Returns the CSS of a font face with the font's data, because a page from a local folder cannot load a
+   font file. */
 async function face({ family, file, style, weight }) {
   const data = (await readFile(`node_modules/@fontsource-variable/${file}`)).toString("base64");
   return `@font-face{font-family:"${family}";font-style:${style};font-weight:${weight};font-display:block;src:url(data:font/woff2;base64,${data}) format("woff2")}\n`;

@@ -63,7 +63,7 @@ class Highlighter:
         return f"<i class=k>{escape(first, quote=False)}</i>" + self.block(rest, _language(magic))
 
     def block(self, source: str, language: str) -> str:
-        """Return `source` as HTML. The HTML has colours if Pygments knows `language`."""
+        """Return the code `source` as HTML. The HTML has colours if Pygments knows `language`."""
         lexer = self._lexer(language)
         coloured = ((_colour(kind), text) for kind, text in lexer.get_tokens(source.rstrip("\n")))
         return "".join(_runs(coloured)).rstrip("\n")

@@ -28,17 +28,17 @@ SAID = ("title", "desc")  # The description in the Markdown replaces these eleme
 # The pattern matches a reference to another element of the same drawing.
 WITHIN = re.compile(r"url\(#([^)]*)\)")
 KINDS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".webp": "webp"}
-# The minimum width of a drawing, divided by the drawing's own width. In a narrower window, the drawing gets a
-# scroll bar, because smaller text cannot be read.
+# This is the minimum width of a drawing, divided by the drawing's own width. In a narrower window, the
+# drawing gets a scroll bar, because smaller text cannot be read.
 SMALLEST = 0.75
 
 
 def figure(folder: Path, url: str, alt: str, prefix: str) -> str:
     """Return the figure `url` of a notebook as HTML; `folder` is the folder of the notebook.
 
-    All ids in a drawing begin with `prefix`, so two drawings on a page have different ids. Raises SiteError
-    if the file is missing or has another format, if the description `alt` is empty, or if a drawing contains
-    a script or another forbidden element.
+    All ids in a drawing begin with the text `prefix`, so two drawings on a page have different ids. Raises
+    SiteError if the file is missing or has another format, if the description `alt` is empty, or if a drawing
+    contains a script or another forbidden element.
     """
     if not alt.strip():
         raise SiteError(f"The figure {url} has no description. Write a description: ![description]({url}).")
@@ -84,7 +84,7 @@ def _width(root: ElementTree.Element) -> float:
 
 
 def _carried(path: Path, element: ElementTree.Element, prefix: str) -> None:
-    """Remove the namespace from an element's tag, and add `prefix` to its id and to its references.
+    """Remove the namespace from an element's tag, and add the prefix to its id and to its references.
 
     Raises SiteError for a forbidden element such as a script, or if an attribute runs code or loads a file.
     """

@@ -23,7 +23,7 @@ class Prose:
     """Renders the Markdown of one page, and adds an anchor to each heading.
 
     The function `highlight` converts code and the name of its language into HTML. The function `figure`
-    converts the address and the description of a figure into HTML. All anchors begin with `prefix`.
+    converts the address and the description of a figure into HTML. All anchors begin with the text `prefix`.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class Prose:
         return str(self._render(source)).strip()
 
     def heading(self, html: str, level: int) -> str:
-        """Add a heading to `headings`, and return its anchor; each anchor of a page is different."""
+        """Add a heading to the list `headings`, and return its anchor; each anchor of a page is different."""
         text = words(html)
         anchor = self._prefix + _anchor(text)
         anchor = next(name for name in _numbered(anchor) if name not in self._taken)
@@ -123,7 +123,7 @@ def words(html: str) -> str:
 
 
 def attribute(text: str) -> str:
-    """Return `text`, escaped for an HTML attribute in quotes."""
+    """Return the text, escaped for an HTML attribute in quotes."""
     return escape(text, quote=True)
 
 

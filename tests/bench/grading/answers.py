@@ -7,8 +7,8 @@ contains answers in percent format. A line `# --- next cell` separates cells:
     # %% 05.1 wrong: TITLE | why: WHAT IS WRONG, for a person who reads the report
 
 The program prints the report of each wrong answer, and of each answer whose verdict differs from its header.
-At the end, it prints the median time of a check, and the longest refusals. With `--alone`, only one check
-runs at a time, so other checks do not increase these times.
+At the end, it prints the median time of a check, and the longest checks that refused an answer. With
+`--alone`, only one check runs at a time, so other checks do not increase these times.
 """
 
 from __future__ import annotations
@@ -32,7 +32,8 @@ WRITTEN = re.compile(
     r"# %% (?P<check>\d\d\.\d+) (?P<kind>right|wrong): (?P<title>[^|]+?)(?:\s*\| why: (?P<why>.+))?$"
 )
 
-LONGEST = 5  # The program prints this number of refusals.
+# The program prints the times of this number of checks.
+LONGEST = 5
 
 
 def answers_main() -> int:

@@ -47,7 +47,10 @@ def copies_main() -> int:
 
 
 def measured(written: dict[str, list[str]], seed: int) -> bool:
-    """Print the result of the flags for the class with this seed. Return whether the limits are met."""
+    """Print the result of the flags for the class with this seed.
+
+    Return whether the result meets its limits.
+    """
     students, pairs = a_class(written, random.Random(seed))  # noqa: S311 -- a class that can be repeated
     submissions = [handed_in(number, answers) for number, answers in enumerate(students)]
     grades = [Grade(each.student, CHAPTER, (), origin=each.origin) for each in submissions]

@@ -2,12 +2,13 @@
 
 Arguments: `[few] [PART …]`.
 
-PART is the beginning of a part's id, such as 05 or 05.3. The first right answer has to earn full points, and
-each wrong example answer has to earn fewer points. The benchmark also changes the first right answer into
-answers that do nothing. In such an answer, all functions return the same value or raise an exception, or the
-code has an error at its beginning. An answer that does nothing must earn no points. The exit status is the
-number of answers that earn a wrong number of points. If the argument `few` is given, only two wrong answers
-of each part run. The benchmark omits parts without goals, because these parts have no partial credit.
+PART is the beginning of a part's id, such as 05 or 05.3. The first right answer of each part must earn full
+points, and each wrong example answer must earn fewer points. The benchmark also changes the first right
+answer into answers that do nothing. In such an answer, all functions return the same value or raise an
+exception, or the code has an error at its beginning. An answer that does nothing must earn no points. The
+exit status is the number of answers that earn a wrong number of points. If the argument `few` is given, only
+two wrong answers of each part run. The benchmark omits parts without goals, because these parts have no
+partial credit.
 """
 
 from __future__ import annotations
@@ -73,7 +74,7 @@ def credit_main() -> int:
 
 
 def _doing_nothing(right: Answer) -> Iterator[Answer]:
-    """Yield answers that define the same names as the answer `right`, but do nothing."""
+    """Yield answers that define the same names as the right answer, but do nothing."""
     magic = right.source.startswith("%%")
     first, _, text = right.source.partition("\n") if magic else ("", "", right.source)
     head = f"{first}\n" if magic else ""

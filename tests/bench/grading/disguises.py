@@ -54,7 +54,10 @@ def a_style(draw: random.Random) -> list[Rule]:
 
 
 def disguised(source: str, keep: set[str], draw: random.Random) -> str:
-    """Return a copy of a program with other names, order and comments. The names in `keep` stay the same."""
+    """Return a copy of a program with other names, order and comments.
+
+    The names in the argument `keep` stay the same.
+    """
     magic, module = _parsed(source)
     _without_docstrings(module)
     _renamed(module, keep, draw)

@@ -1,4 +1,4 @@
-"""Measures the speed of grading, the effect of a kill, and the grades of the solutions."""
+"""Measures the speed of grading, checks runs that continue after a kill, and grades the solutions."""
 
 from __future__ import annotations
 
@@ -66,14 +66,14 @@ def report(what: str, seconds: float) -> None:
 
 
 def timed(work: Callable[[], object]) -> float:
-    """Return the duration of `work` in s."""
+    """Return the duration of a piece of work in s."""
     began = time.monotonic()
     work()
     return time.monotonic() - began
 
 
 def handed_in(folder: Path, count: int) -> None:
-    """Write `count` different submissions. Every third submission has one wrong answer."""
+    """Write several different submissions. Every third submission has one wrong answer."""
     solution = read(NotebookStore().solutions([CHAPTER])[0])
     for number in range(count):
         notebook = json.loads(json.dumps(solution))
@@ -95,10 +95,7 @@ def speed_grade(submissions: Path, out: Path, validate: str) -> None:
 
 
 def many(here: Path, few: float, count: int) -> None:
-    """Grade `count` submissions.
-
-    Grade many submissions, and print the throughput and the memory usage.
-    """
+    """Grade many submissions, and print the throughput and the memory usage."""
     handed_in(here / "many", count)
     with watched() as seen:
         each = timed(lambda: speed_grade(here / "many", here / "many-out", "none")) / count
@@ -138,7 +135,7 @@ def _resident(pid: int) -> int:
 
 
 def nbgrader(here: Path, count: int) -> float:
-    """Grade `count` copies of a notebook with nbgrader, and return the duration in s for each copy."""
+    """Grade several copies of a notebook with nbgrader, and return the duration in s for each copy."""
     python = nbgrader_python()
     course = here / "nbgrader"
     assignment = course / "source" / "ps" / "notebook.ipynb"
@@ -207,7 +204,7 @@ COURSE = Places.of().checkout / "course"
 
 
 def kill_main() -> None:
-    """Repeatedly kill a run of the grading, and continue this run.
+    """Repeatedly kill a run of the grading, and start it again in the same folder.
 
     Print in how many runs the grades were the same as without a kill and no process remained.
     """
@@ -227,7 +224,10 @@ def kill_main() -> None:
 
 
 def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bool:
-    """Kill a run, and continue the run. Return whether the grades are `expected` and no process remains."""
+    """Kill a run of the grading, and start it again.
+
+    Return whether the grades are right and no process remains.
+    """
     moment = random.uniform(0.2, whole)  # noqa: S311 -- not a secret
     process = start(submissions, out)
     time.sleep(moment)
@@ -244,7 +244,7 @@ def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bo
 
 
 def still_there(pids: list[int]) -> list[int]:
-    """Wait at most 10 s for the end of the processes `pids`, and return the processes that still run."""
+    """Wait at most 10 s until the given processes exit, and return the processes that still run."""
     deadline = time.monotonic() + 10.0
     while time.monotonic() < deadline:
         pids = [pid for pid in pids if alive(pid)]

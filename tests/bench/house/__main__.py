@@ -2,11 +2,11 @@
 
 usage: ./course run python -m tests.bench.house SUBCOMMAND
 
-- `size`, `imports`, `types`, `functions` and `hints` measure the code; `code` runs all of them.
-- `objects`, `names`, `parts`, `errors` and `prose` count in the notebooks of `solutions/`, with their stored
-  outputs; `content` runs all of them.
+- `size`, `imports`, `types`, `functions` and `hints` measure the code; `code` runs these five subcommands.
+- `objects`, `names`, `parts`, `errors` and `prose` count objects, names, graded parts, lines of errors and
+  words in the notebooks of `solutions/`; `content` runs these five subcommands.
 
-`course test` installs import-linter, which `imports` needs. Sizes are counted after `ruff format`.
+`course test` installs import-linter, which `imports` needs. `size` counts lines after `ruff format`.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ def objects_main() -> bool:
 
 
 def names_main() -> bool:
-    """Print the names that code cells import from course_pkg, except types.
+    """Print the names that code cells import from course_pkg; service and message types do not count.
 
     Return whether there are too many names.
     """
@@ -105,7 +105,7 @@ def all_main() -> bool:
 
 
 def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
-    """Yield each cell of the type `kind`, with the path of the notebook and the number of the cell."""
+    """Yield each cell of one type, with the path of the notebook and the number of the cell."""
     for path in sorted((ROOT / "solutions").glob("[0-9][0-9]_*.ipynb")):
         for number, cell in enumerate(nbformat.read(path, as_version=4).cells):
             if cell.cell_type == kind:

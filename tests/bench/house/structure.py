@@ -121,7 +121,7 @@ def is_answers(path: Path) -> bool:
 def refused(contract: str) -> int:
     """Return the number of imports that break a contract of import-linter.
 
-    `contract` is the contract's id in pyproject.toml.
+    The argument is the contract's id in pyproject.toml.
     """
     command = ["lint-imports", "--contract", contract]
     result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)

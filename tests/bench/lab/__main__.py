@@ -10,9 +10,11 @@ usage: ./course run python -m tests.bench.lab start [RUNS [NOTEBOOK]]
 
 - `start` prints the time from the command to a page with a rendered notebook and an idle kernel, for
   `course lab` and for the unchanged `jupyter lab`.
-- `click` prints the time from a click to Python and back to the page, for the same two programs.
-- `kill` kills `course lab`, its master, its kernel or the holder of its graph by SIGKILL, and prints how many
-  processes, sockets, mounts and files were left. Each of these processes is killed TIMES times (default 25).
+- `click` prints the time from a click in the page until the page shows the result from Python, for the same
+  two programs.
+- `kill` kills `course lab`, its master, its kernel or the process that keeps its private network, each with
+  SIGKILL, and prints how many processes, sockets, mounts and files were left. Each of these processes is
+  killed TIMES times (default 25).
 - `isolation` compares `course lab` with `course lab --shared-graph`: the start, a click, and a check.
 - `first` compares the first start of a new user of the installation in PREFIX with the second start.
 - `students` measures a hub with COUNT students.
@@ -35,7 +37,7 @@ from tests.bench.lab.start import click, isolation, start
 
 
 def _missed(measure: Callable[..., bool]) -> bool:
-    """Run `measure` with the arguments of the command line; return whether a limit is not met."""
+    """Run a measurement with the arguments of the command line; return whether a limit is not met."""
     return not measure(*(int(word) if word.isdigit() else word for word in sys.argv[1:]))
 
 

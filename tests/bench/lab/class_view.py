@@ -20,7 +20,7 @@ from tests.class_view.classes import tokens_in
 from tests.support import eventually
 
 STUDENTS = 60
-RATE = 10  # results per second
+RATE = 10  # The senders send this many results per second.
 SECONDS = 30
 PARTS = ("05.1", "05.2", "05.3", "05.4")
 VERDICTS = ("passed", "not yet", "not yet")
@@ -78,8 +78,8 @@ def live_main() -> None:
             stack.close()
             for thread in threads:
                 thread.join(20)
-    # Results can arrive in another order, so the n-th result counts as shown as soon as the page shows n
-    # results.
+    # Results can arrive in another order. Therefore, the benchmark takes the time at which the page shows n
+    # results as the time of the n-th result.
     times = sorted(
         next(when for version, when in shown if version > number) - put for number, put in enumerate(written)
     )

@@ -30,7 +30,7 @@ DROP = ("setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups")
 
 @contextmanager
 def installed(program: Path, _notebook: Path, home: Path) -> Iterator[str]:
-    """Run `course lab` of the installation as the owner of `home`; yield the address of the first chapter."""
+    """Run `course lab` of the installation as a new user; yield the address of the first chapter."""
     command = [*(DROP if os.geteuid() == 0 else ()), program, "lab", "--no-browser"]
     variables = {"HOME": str(home), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
     with started(command, variables, home) as address:

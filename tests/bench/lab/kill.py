@@ -27,7 +27,7 @@ def kill(times: int = 25) -> bool:
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
     victims["the holder of the graph"] = b"graph/holder.py\0"
     nothing = True
-    with tempfile.TemporaryDirectory(prefix="c", dir="/tmp") as folder:  # a short name
+    with tempfile.TemporaryDirectory(prefix="c", dir="/tmp") as folder:  # The path must be short.
         killed(
             folder, victims["the holder of the graph"]
         )  # The first start creates files that are not deleted, such as locks.
@@ -41,9 +41,9 @@ def kill(times: int = 25) -> bool:
 
 
 def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
-    """Kill the process whose command line contains `pattern`, and then stop the command.
+    """Kill the process whose command line contains the given text, and then stop `course lab`.
 
-    If `pattern` is empty, the function kills the command itself. The files of the command are in `folder`.
+    If the text is empty, the function kills `course lab` itself. The files of `course lab` are in `folder`.
     The function waits up to TIMEOUT until nothing is left. Return the waiting time in s, and the number of
     remaining processes, sockets, mounts and files.
     """
@@ -86,20 +86,23 @@ def files_in(folder: str) -> set[str]:
 
 
 def started_with(folder: str) -> list[int]:
-    """Return all processes of this computer with TMPDIR=`folder`.
+    """Return all processes of this computer whose environment variable TMPDIR is the given folder.
 
     Linux deletes a private network when no process uses it. Therefore, an empty list means that the private
     network of the command does not exist.
     """
     found = []
     for process in Path("/proc").glob("[0-9]*"):
-        with suppress(OSError):  # the process has ended, or belongs to another user
+        with suppress(OSError):  # The process has ended, or belongs to another user.
             if f"\0TMPDIR={folder}\0".encode() in b"\0" + (process / "environ").read_bytes():
                 found.append(int(process.name))
     return found
 
 
 def complete_family(process: subprocess.Popen[str]) -> list[int]:
-    """Return the child processes of `process`. The list is empty if the master or the kernel is missing."""
+    """Return the child processes of `course lab`.
+
+    The list is empty if the master or the kernel is missing.
+    """
     family = below(process)
     return family if having(b"ipykernel_launcher", family) and having(b"rosmaster\0--core", family) else []

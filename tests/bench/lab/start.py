@@ -30,7 +30,7 @@ START_RATIO, START_BAR = 0.75, 3.0
 # A click in `course lab` may take at most this fraction of the duration in `jupyter lab`, and at most this
 # many ms.
 CLICK_RATIO, CLICK_BAR = 0.3, 12.0
-WARM_UP = 10  # clicks
+WARM_UP = 10  # The benchmark ignores this number of clicks at the beginning.
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
 FLAGS += ["--disable-background-networking"]
 # The selector excludes hidden tabs, because `jupyter lab` restores old tabs.
@@ -66,7 +66,7 @@ CLICK = """async () => {
     await changed
     return performance.now() - start
 }"""
-# The two arguments are a notebook and a folder for JupyterLab's settings.
+# The two arguments of the function are a notebook and a folder for JupyterLab's settings.
 Server = Callable[[Path, Path], AbstractContextManager[str]]
 
 
@@ -187,7 +187,7 @@ def started(command: Sequence[str | Path], env: Mapping[str, str], cwd: Path | N
 
 @contextmanager
 def stock(notebook: Path, state: Path) -> Iterator[str]:
-    """Run the unchanged JupyterLab with settings in the folder `state`; yield the address of the notebook."""
+    """Run the unchanged JupyterLab, and keep its settings in a folder; yield the address of the notebook."""
     port = free_port()
     command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", f"--port={port}"]
     command += [f"--ServerApp.root_dir={ROOT}", "--IdentityProvider.token=t"]

@@ -24,12 +24,12 @@ LABEL = "Break it"
 
 
 def number(name: str) -> int:
-    """Each case of the panel has one fault; return the number of the case with the fault `name`."""
+    """Return the number of the panel's case that has the given fault; each case has one fault."""
     return next(case.number for case in cases() if case.fault.name == name)
 
 
 def begin(lab: Locator, name: str) -> None:
-    """Open the case with the fault `name`, and wait for its symptom."""
+    """Open the case that has the given fault, and wait for its symptom."""
     lab.get_by_role("button", name=f"Case {number(name)},").click()
     expect(lab.get_by_text(f"Case {number(name)}. ")).to_be_visible()
     expect(lab.get_by_text("The fault is active.")).to_be_visible()
@@ -129,7 +129,7 @@ def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) ->
     ):
         shown = page.locator(".jp-OutputArea-output", has_text="http://localhost").first.inner_text()
         master = MasterClient(shown.strip().strip("'"))
-        # If another panel has caused a fault, `before` contains the nodes of this fault.
+        # The graph may already contain the nodes of a fault that another panel has caused.
         before = master.system_state().nodes
         begin(panel(page, LABEL), "stale")
         assert master.system_state().nodes != before

@@ -60,7 +60,7 @@ def own_form(lab: Lab, lab_page: Page, request: pytest.FixtureRequest) -> Iterat
 
 
 def fill(form: Locator, **values: str) -> None:
-    """Type these values into the fields."""
+    """Type the given values into the fields of the form."""
     for name, text in values.items():
         field = form.get_by_label(name)
         field.fill(text)
@@ -72,7 +72,7 @@ def answer(form: Locator, name: str) -> Locator:
 
 
 def run_cell(page: Page, code: str) -> None:
-    """Append a cell with this code, and run the cell."""
+    """Append a cell with the given code, and run the cell."""
     page.locator(".jp-Notebook-footer").click()
     editor = page.locator(".jp-CodeCell .cm-content").last
     editor.click()
@@ -183,7 +183,7 @@ def test_the_picker_follows_the_graph(own_form: Locator, lab_page: Page) -> None
 
 
 def test_filling_from_python_shows_in_the_form(own_form: Locator, lab_page: Page) -> None:
-    """A cell fills in the form, and the page shows the values."""
+    """Code in a cell fills in the form, and the page shows the values."""
     form = own_form
     run_cell(lab_page, "form.call(length=1.2, width=5.2, height=8.9).area")
     expect(form.get_by_label("length")).to_have_value("1.2")

@@ -26,7 +26,7 @@ def show(page: Page, folder: Path, view: WireView, theme: str = "light") -> Loca
 
 
 def pieces(wire: Locator, name: str) -> Locator:
-    """Return the table row of the field `name`."""
+    """Return the table row of a field."""
     return wire.locator(".ros-sides tbody tr").filter(
         has=wire.page.locator("td:nth-child(3)", has_text=re.compile(f"^{name}$"))
     )

@@ -1,6 +1,7 @@
 """The example answers with which the checks are tested: right and wrong answers of students.
 
-Each chapter has them in `answers.py`: valid Python in percent format. A cell is one answer:
+Each chapter has its example answers in `answers.py`, which is valid Python in percent format. A cell is one
+answer:
 
     # %% 05.1 right: TITLE
     # %% 05.1 wrong: TITLE | hint: TEXT     the report must contain TEXT, a part of the hint
@@ -53,7 +54,7 @@ class Answer:
 
     @property
     def quotes(self) -> list[str]:
-        """The parts of a hint that the report must contain; none for a right answer."""
+        """The parts of a hint that the report must contain; an empty list for a right answer."""
         return [] if self.right else [" ".join(part.split()) for part in self.hint.split(" … ")]
 
     @property
@@ -69,7 +70,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Replacement:
-    """One change of a source: the old text, which occurs `times` times, is replaced by the new text."""
+    """One change of a source: the new text replaces the old text, which occurs a given number of times."""
 
     old: str
     new: str
@@ -77,7 +78,7 @@ class Replacement:
     place: str  # file and line, for error messages
 
     def apply(self, source: str) -> str:
-        """Return the changed source; raise ValueError if the old text does not occur `times` times."""
+        """Return the changed source; raise ValueError if the old text occurs more often or less often."""
         pattern = ".*?".join(map(re.escape, self.old.split(" … ")))
         changed, found = re.subn(pattern, lambda _: self.new, source, flags=re.DOTALL)
         if found != self.times:
@@ -101,7 +102,7 @@ class Change:
         base = self.base or next(iter(programs), "")
         if base not in programs:
             raise ValueError(f"{self.place}: no earlier answer to this part has the title {base!r}")
-        # with this line break, a replacement of whole lines can also replace the first line
+        # With this line break, a replacement of whole lines can also replace the first line.
         source = "\n" + programs[base]
         for replacement in self.replacements:
             source = replacement.apply(source)
@@ -120,7 +121,7 @@ def every_answer() -> Iterator[Answer]:
 
 
 def read_answers(path: Path) -> list[Answer]:
-    """Return the answers in the file at `path`, in its order.
+    """Return the answers of a file in their order.
 
     Raises ValueError, with file and line, if the file is not valid Python, if a header is malformed, if two
     answers to a part have the same title, or if a change does not fit the answer on which it is based.
@@ -162,13 +163,13 @@ def _parse(source: str, path: Path, first_line: int) -> ast.Module:
 
 @cache
 def _solutions(chapter: str) -> dict[str, str]:
-    """Return the sources of the exercise cells in a chapter's solution, by their parts."""
+    """Return a dict: for each part of a chapter, the source of the exercise cell in the solution."""
     (path,) = NotebookStore().solutions([chapter])
     return {part: cell["source"] for cell in code_cells(read(path)) if (part := exercise_of(cell))}
 
 
 def _body(source: str, check: str, path: Path, header_line: int) -> str | Change:
-    """Return the source of an answer to the part `check`, or the change from which it is made."""
+    """Return the source of an answer, or the change from which this source is made."""
     statements = _parse(source, path, header_line + 1).body
     match statements:
         case [ast.Expr(ast.Constant(str(text)))]:
@@ -198,7 +199,7 @@ def _change(statements: list[ast.stmt], path: Path, header_line: int) -> Change:
 
 
 def _times(keywords: list[ast.keyword]) -> int:
-    """Return the value of the keyword `times`; 1 if there are no keywords; 0 if they are wrong."""
+    """Return the value of the keyword `times`, or 1 without keywords, or 0 if the keywords are wrong."""
     match keywords:
         case []:
             return 1

@@ -32,41 +32,41 @@ class Hint:
         return f"{self.place}: {'…'.join(self.pieces)}"
 
     def contains(self, text: str) -> bool:
-        """Return whether this hint contains `text`."""
+        """Return whether this hint contains the given text."""
         return any(text in piece for piece in self.pieces)
 
 
 def hints_in(path: Path) -> list[Hint]:
-    """Return the hints in the module at `path`."""
+    """Return the hints in a module."""
     texts = _strings(ast.parse(path.read_text("utf-8")))
     return [Hint(f"{path}:{line}", pieces) for line, pieces in texts if SENTENCE.fullmatch("…".join(pieces))]
 
 
 def hints_of(chapter: str) -> list[Hint]:
-    """Return the hints in all checks of the chapter with the number `chapter`, such as "05"."""
+    """Return the hints in all checks of a chapter; the argument is its number as a string, such as "05"."""
     goals = {(goal.text,) for part in every_part() for goal in part.goals}
     found = [hint for path in sorted(folder_of(chapter).glob("checks/*.py")) for hint in hints_in(path)]
     return [hint for hint in found if hint.pieces not in goals]
 
 
 def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
-    """Return each hint of which no part occurs in the header of an example answer."""
+    """Return the hints that no header of an example answer quotes."""
     shown = set().union(*(shown_by(text, hints) for answer in answers for text in answer.quotes))
     return [hint for hint in hints if hint.pieces not in shown]
 
 
 def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
-    """Return the constant strings (`pieces`) of the only hint that contains `text`.
+    """Return the constant strings (`pieces`) of the only hint that contains the given text.
 
-    If several hints contain `text`, return the hint that is equal to `text`. If there is no such hint, return
-    an empty set.
+    If several hints contain the text, return the hint that is equal to the text. If there is no such hint,
+    return an empty set.
     """
     found = {hint.pieces for hint in hints if hint.contains(text)}
     return found & {(text,)} or (found if len(found) == 1 else set())
 
 
 def _strings(node: ast.AST) -> Iterator[tuple[int, tuple[str, ...]]]:
-    """For each possible hint in the syntax tree of `node`, yield its line number and its constant strings."""
+    """For each possible hint in a syntax tree, yield its line number and its constant strings."""
     match node:
         case ast.Expr(ast.Constant()) | ast.Raise() | ast.keyword("goal"):
             return

@@ -24,17 +24,20 @@ from tests.checking.answers.workers import WorkerPool
 PARTS = {part.check: part for part in every_part()}
 # The answers with the longest deadlines run first, so that all sandboxes are busy until the end.
 ANSWERS = sorted(every_answer(), key=lambda answer: -PARTS[answer.check].deadline)
-# the first answer of each part
+# This dict contains the first right answer to each part.
 RIGHT = {answer.check: answer for answer in reversed(ANSWERS) if answer.right}
 pytestmark = pytest.mark.timeout(900)  # time limit in s for a test that waits in the queue
-# The numbers of the right and the wrong answers of a part in a usual run; all other answers are slow. The
-# first right answer is the solution; test_validation.py runs its check.
+# A usual run contains this number of right answers (key True) and of wrong answers (key False) to each part;
+# all other answers are slow tests. The first right answer is missing here because it is the solution, and
+# test_validation.py runs the check of the solution.
 USUAL = {True: (2,), False: (1,)}
-# parts that build or start programs
+# These parts build or start programs.
 BUILDS = ("04.1", "04.3", "04.4", "04.5", "07.", "09.", "13.", "14.", "15.")
-# The first part of each chapter. All answers of a part in BUILDS are slow, unless the part is in FIRST.
+# These are the first parts of the chapters. All answers to a part in BUILDS are slow, unless the part is in
+# FIRST.
 FIRST = {f"{chapter}.1" for chapter in chapters()}
-A_CORE = 2  # sandboxes per core, because answers wait for nodes and messages most of the time
+# Several sandboxes run on each core, because answers wait for nodes and messages most of the time.
+A_CORE = 2
 STORED = {
     check: cell["outputs"][0]["data"]
     for path in NotebookStore().solutions()
@@ -85,7 +88,7 @@ def _case(item: pytest.Item) -> Answer | Part | None:
 
 
 def _params() -> Iterator[ParameterSet]:
-    """Yield the answers; answers that a usual run leaves out are marked as slow."""
+    """Yield the answers; mark the answers that a usual run does not include as slow."""
     count: Counter[tuple[str, bool]] = Counter()
     for answer in ANSWERS:
         count[answer.check, answer.right] += 1
@@ -102,8 +105,8 @@ def _name(answer: Answer) -> str:
 def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report: Report) -> None:
     """A right answer passes; a wrong answer fails, and the report contains the hint for its mistake.
 
-    The text and the HTML of a pass are stored in the solution, and nbval compares both. So they must not
-    contain the drawn inputs.
+    The solution contains the text and the HTML of a pass, and nbval compares them. So they must not contain
+    the random inputs of the check.
     """
     assert report.verdict is (Verdict.PASSED if answer.right else Verdict.FAILED), str(report)
     text = " ".join(str(report).split())

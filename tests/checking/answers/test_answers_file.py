@@ -122,7 +122,7 @@ replace("<launch>", "<node>")
     ],
 )
 def test_a_malformed_header_is_refused(tmp_path: Path, header: str) -> None:
-    """For a malformed header in the file, the error message contains the line number and the header."""
+    """If a header in the file is malformed, the error message contains the line number and the header."""
     with pytest.raises(ValueError, match=f"line 1: '# %% {header}' is not a header"):
         _read(tmp_path, f"# %% {header}\nx = 1\n")
 
@@ -149,7 +149,7 @@ def test_a_malformed_header_is_refused(tmp_path: Path, header: str) -> None:
     ],
 )
 def test_a_change_that_does_not_fit_is_refused(tmp_path: Path, change: str, line: int, message: str) -> None:
-    """For an invalid change, the error message contains the file, the line number and the reason."""
+    """If a change is invalid, the error message contains the file, the line number and the reason."""
     start = FILE.index("# %% 05.1 wrong")
     with pytest.raises(ValueError, match=rf"answers\.py, line {line}: .*{message}"):
         _read(tmp_path, f"{FILE[:start]}# %% 05.1 wrong: a change | hint: y\n{change}\n{FILE[start:]}")

@@ -13,7 +13,7 @@ from course_pkg.sandbox.worker_client import SandboxWorker
 
 
 class WorkerPool:
-    """A context manager that runs jobs in `count` sandboxes at the same time."""
+    """A context manager that runs jobs in several sandboxes at the same time."""
 
     def __init__(self, count: int) -> None:
         self._futures: dict[PartJob, Future[PartResult]] = {}
@@ -39,7 +39,7 @@ class WorkerPool:
                 self._futures[job] = self._threads.submit(self._run, job)
 
     def result(self, job: PartJob) -> PartResult:
-        """Wait until `job` has finished, and return its result."""
+        """Wait until the given job has finished, and return its result."""
         self.submit([job])
         return self._futures[job].result()
 

@@ -22,7 +22,7 @@ from course_pkg.ros import PrivateMaster
     ],
 )
 def test_line_with_the_error_is_found(printed: str, told: str) -> None:
-    """The result is the line with the error, without colour codes and the path of the working folder."""
+    """telling_line() returns the line with the error, without colour codes and the working folder's path."""
     assert telling_line(printed) == told
 
 

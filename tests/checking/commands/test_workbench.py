@@ -113,7 +113,7 @@ def test_a_command_that_ended_by_itself_has_a_status(bench: CommandFolders) -> N
 
 
 def test_sigkill_leaves_no_folder(tmp_path: Path) -> None:
-    """If the process that made a folder is killed, the folder is deleted."""
+    """If the process that made a folder is killed, the folder disappears."""
     code = (
         "import os, signal\nfrom course_pkg.checking.commands.workbench import CommandFolders\n"
         "bench = CommandFolders(lambda name: name)\nbench.folder([], {'arm.py': ''})\n"

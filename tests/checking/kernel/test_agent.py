@@ -23,7 +23,7 @@ def call(namespace: dict[str, Value], *args: Value, within: float = 1.0) -> Repl
 
 
 def test_result_contains_the_printed_text() -> None:
-    """The reply contains the result as plain data, and the printed text."""
+    """The reply to a request contains the result as plain data, and the printed text."""
     answer = call({"f": lambda a: (print("hello"), a + 1)[1]}, 2)  # noqa: T201
     assert (answer["value"], answer["printed"]) == (3, "hello\n")
 

@@ -101,7 +101,7 @@ def test_registration_after_a_crash(server: FaultyServer, unregisters: bool, tex
 
 @pytest.mark.parametrize("worked", [True, False])
 def test_plan_decides_whether_the_work_is_done(node: Node, worked: bool) -> None:
-    """When a call fails as planned, the handler runs only if the fault has worked=True."""
+    """When a call fails as planned, the handler runs only if the fault's field `worked` is True."""
     done: list[float] = []
 
     def work(request: Message) -> dict[str, Json]:

@@ -119,7 +119,10 @@ def test_the_former_server_serves_again(node: Node, take: Callable[[Node], Scrip
 
 
 def test_stale_registration_has_a_closed_port(node: Node) -> None:
-    """A stale registration contains a closed port, and is removed at the end of the `with` block."""
+    """A stale registration contains a closed port.
+
+    At the end of the `with` block, this registration is removed.
+    """
     with Absent(node, "/x", stale=True), pytest.raises(rospy.ServiceException, match="Connection refused"):
         ask("/x", 1, 2, 3)
     assert node.master.lookup_service("/x") is None

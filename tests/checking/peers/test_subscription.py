@@ -93,7 +93,7 @@ def test_a_wait_ends_when_its_time_is_over(check: Kernel) -> None:
 
 
 def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
-    """If a topic has no publisher, the report says this, and contains a similar topic name."""
+    """If a topic has no publisher, the report says so and contains a similar topic name."""
     assert check.run("result = broken(subscribe('/joint_states'), within=0.1)") == [
         "/joint_states is published as std_msgs/UInt32",
         "no publisher",
@@ -166,7 +166,7 @@ def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) ->
 
 
 def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: Kernel) -> None:
-    """Published messages wait for a subscriber, and `sent` then contains the time of each message."""
+    """The first message waits for a subscriber, and `sent` then contains the time of each message."""
     check.run("p = publish('/few', UInt32, [{'data': n} for n in (3, 1, 2)])")
     assert check.run("result = [p.has_subscriber(0.1), p.finish(0.1), p.sent]") == [False, False, []]
     student.run("subscription = node.subscribe('/few', UInt32)")

@@ -24,7 +24,7 @@ NOBODY = {
 
 
 def graded(root: Path, files: dict[str, bytes], **settings: float | tuple[str, ...]) -> dict[str, Plain]:
-    """Create Gradescope's folders with `files` as the submission; run the grader, and return results.json."""
+    """Create Gradescope's folders with a submission, run the grader, and return the grader's results."""
     known = Settings(**{"chapters": ("05",), "minutes": 5.0, **settings})  # type: ignore[arg-type]
     folder(root, {"source/settings.json": known.as_json().encode()})
     (root / "submission").mkdir(exist_ok=True)
@@ -57,7 +57,7 @@ def test_without_a_notebook_each_part_is_listed_without_points(tmp_path: Path) -
 
 @pytest.mark.parametrize("case", NOBODY)
 def test_a_file_that_cannot_be_graded_has_a_message(tmp_path: Path, case: str) -> None:
-    """For a file that is not a notebook, the output contains the file's name."""
+    """If the submitted file is not a notebook, the output contains the file's name."""
     name, content = NOBODY[case]
     results = graded(tmp_path, {name: content})
     assert results["score"] == 0
@@ -96,7 +96,7 @@ def test_two_notebooks_of_two_chapters_are_both_graded(tmp_path: Path) -> None:
 
 
 def test_broken_settings_still_give_results(tmp_path: Path) -> None:
-    """For a damaged settings.json, the results contain a message and no points."""
+    """If settings.json is damaged, the results contain a message and no points."""
     folder(tmp_path, {"source/settings.json": b"{"})
     assert autograde(tmp_path) == 0
     results = json.loads((tmp_path / "results" / "results.json").read_text("utf-8"))

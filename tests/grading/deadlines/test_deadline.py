@@ -86,7 +86,7 @@ def test_an_extension_ends_at_the_same_time_of_day() -> None:
     ],
 )
 def test_a_deadline_that_makes_no_sense(given: list[str], grace: float, said: str) -> None:
-    """For an invalid deadline, the error message contains a correct example."""
+    """If a deadline is invalid, the error message contains a correct example."""
     with pytest.raises(GradingError, match=said):
         deadlines(given, grace, None, Extensions())
 
@@ -102,7 +102,7 @@ def test_extensions_of_a_roster(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("written", ["two", "-1", "nan"])
 def test_a_broken_extension(written: str) -> None:
-    """For an invalid extension, the error message contains the line number, but not the student's name."""
+    """If an extension is invalid, the error message contains the line number, but no student's name."""
     person = Person("secret", line=3, more={"extension days": written})
     with pytest.raises(GradingError, match="Line 3 of the roster: extension_days is not") as caught:
         extensions_of({"secret": person})

@@ -43,7 +43,7 @@ def test_deduction_for_lateness(
 
 
 def test_without_a_table_no_submission_is_late() -> None:
-    """Without a table and a deadline, no submission is late."""
+    """Without a table of late days and without a deadline, no submission is late."""
     assert late_policy(None, None, None).factor(9) == 1.0
 
 
@@ -63,7 +63,7 @@ def test_without_a_table_no_submission_is_late() -> None:
 def test_invalid_policy_is_refused(
     table: Path | None, per_day: float | None, max_days: float | None, message: str
 ) -> None:
-    """For invalid settings, the error message contains the option and the expected value."""
+    """If a setting is invalid, the error message contains the option and the expected value."""
     with pytest.raises(GradingError, match=message):
         late_policy(table, per_day, max_days)
 
@@ -105,7 +105,7 @@ def test_as_a_spreadsheet_saves_it(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_table(tmp_path: Path, content: str | bytes, words: str) -> None:
-    """For a wrong table, the error message contains the line and the mistake, but no student's name."""
+    """If the table is wrong, the error message contains the line and the mistake, but no student's name."""
     with pytest.raises(GradingError, match=words) as caught:
         late_table(_table(tmp_path, content))
     assert "secret" not in str(caught.value)

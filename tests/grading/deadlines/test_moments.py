@@ -18,12 +18,12 @@ BERLIN = zone_of("Europe/Berlin")
         ("2026-11-01T23:59+01:00", "2026-11-01T22:59"),
         ("2026-11-01T23:59:00+0100", "2026-11-01T22:59"),
         ("2026-11-01 22:59:30 Z", "2026-11-01T22:59:30"),
-        ("2026-11-01 22:59:30.123456 UTC", "2026-11-01T22:59:30"),  # nbgrader
-        ("2026-11-01 22:59:30.123456000 Z", "2026-11-01T22:59:30"),  # Gradescope
+        ("2026-11-01 22:59:30.123456 UTC", "2026-11-01T22:59:30"),  # the format of nbgrader
+        ("2026-11-01 22:59:30.123456000 Z", "2026-11-01T22:59:30"),  # the format of Gradescope
         ("2026-11-01 15:59:30.123456 -07:00", "2026-11-01T22:59:30"),
         ("2026-11-01 23:59", "2026-11-01T22:59"),
         ("2026-07-01 23:59", "2026-07-01T21:59"),
-        ("Sunday, 1 November 2026, 11:59 PM", "2026-11-01T22:59"),  # Moodle
+        ("Sunday, 1 November 2026, 11:59 PM", "2026-11-01T22:59"),  # the format of Moodle
         ("Sunday, November 1, 2026, 11:59 PM", "2026-11-01T22:59"),
         ("Sunday, 1 November 2026, 23:59", "2026-11-01T22:59"),
         ("Sunday, 1 November 2026, 12:05\u202fAM", "2026-10-31T23:05"),
@@ -33,7 +33,7 @@ BERLIN = zone_of("Europe/Berlin")
     ],
 )
 def test_the_forms(written: str, utc: str) -> None:
-    """A time without a time zone is read as a time in the given zone."""
+    """If a text contains a time without a time zone, the time is in the given time zone."""
     moment = moment_of(written, BERLIN)
     assert moment is not None
     assert moment.astimezone(timezone.utc) == datetime.fromisoformat(utc).replace(tzinfo=timezone.utc)
@@ -43,12 +43,12 @@ def test_the_forms(written: str, utc: str) -> None:
     "written", ["", "-", "tomorrow", "2026-11-01", "2026-13-01 10:00", "1 Foo 2026, 10:00"]
 )
 def test_no_time(written: str) -> None:
-    """For a text that is not a time, the result is None."""
+    """If a text is not a time, the result is None."""
     assert moment_of(written, BERLIN) is None
 
 
 def test_a_time_without_any_zone() -> None:
-    """Without a zone in the text or in the argument, the result is None."""
+    """If neither the text nor the argument contains a time zone, the result is None."""
     assert moment_of("2026-11-01 23:59", None) is None
     assert moment_of("2026-11-01 23:59 Z", None) is not None
 

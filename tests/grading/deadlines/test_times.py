@@ -86,7 +86,7 @@ def test_gradescope(tmp_path: Path, pack: bool) -> None:
 
 @pytest.mark.parametrize("outer", ["", "submitted/"])
 def test_nbgrader(tmp_path: Path, outer: str) -> None:
-    """The file timestamp.txt is read only with the option `--times nbgrader`."""
+    """`course grade` reads the file timestamp.txt only with the option `--times nbgrader`."""
     files = {
         f"{outer}s01/ps1/{FILE}": NOTEBOOK,
         f"{outer}s01/ps1/timestamp.txt": b"2026-11-01 22:59:30.123456 UTC",
@@ -149,7 +149,7 @@ def test_the_table_of_collected_files(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_table_of_times(tmp_path: Path, text: str, said: str) -> None:
-    """For a wrong table, the error message contains the line number, but no student's name."""
+    """If the table is wrong, the error message contains the line number, but no student's name."""
     table = tmp_path / "times.csv"
     table.write_text(text, "utf-8")
     with pytest.raises(GradingError, match=said) as caught:

@@ -185,7 +185,7 @@ def test_short_answers_do_not_count() -> None:
 
 
 def test_code_that_the_class_shares_does_not_count() -> None:
-    """Code that more than a tenth of a class has in common leads to no flag."""
+    """If more than a tenth of a class has the same code, this code leads to no flag."""
     assert _class(**{f"s{number:02}": SWITCH for number in range(4)}) == {}
     assert len(_class(**{f"s{number:02}": SWITCH for number in range(3)})) == 3
 

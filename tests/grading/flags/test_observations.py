@@ -128,7 +128,7 @@ def test_right_example_answers() -> None:
 
 
 def test_a_program_in_a_package() -> None:
-    """The Python files in a package are searched, and the flag contains a line of the file."""
+    """The search also reads the Python files in a package, and the flag contains a line of the file."""
     script = work_file("scripts/spawn_turtle.py", b"#!/usr/bin/env python3\nimport ctypes\n", executable=True)
     packages = (Package("my_turtles", (script,), "s01/my_turtles"),)
     handed_in = Submission("s01", "09", b"", "s01/my_turtles", problem="No notebook.", packages=packages)
@@ -151,6 +151,6 @@ def test_programs_that_are_hard_to_read() -> None:
 
 
 def test_a_program_that_is_too_long() -> None:
-    """For a program that is too long, the instructor gets a message."""
+    """If a program is too long for the search, the instructor gets a message."""
     (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": "x = 1\n" * 5000}))["s01"]
     assert flag.words == "The code is too long, so it was not searched for suspicious lines."

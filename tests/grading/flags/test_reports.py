@@ -66,13 +66,13 @@ def test_without_flags_there_is_no_section(tmp_path: Path) -> None:
 
 
 def test_a_flag_with_a_harmful_line(tmp_path: Path) -> None:
-    """Harmful characters are removed from the line in a flag."""
+    """The line in a flag contains no harmful characters."""
     _write(tmp_path, Flag(NASTY, NASTY, NASTY, 1, NASTY, (NASTY,)))
     assert "<script>alert" not in (tmp_path / "class.html").read_text("utf-8")
 
 
 def test_the_record_keeps_flags(tmp_path: Path) -> None:
-    """The flags of a grade are stored in its record; a record without the field "flags" can also be read."""
+    """A grade's record contains its flags; a record without the field "flags" is also valid."""
     flag = Flag("copies", "05.2", WORDS, 1, "x = 1", ("s02", "s03"))
     _write(tmp_path, flag)
     assert read_grades(tmp_path)[0].flags == (flag,)

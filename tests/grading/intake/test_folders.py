@@ -26,7 +26,7 @@ def _with_folders(root: Path, files: dict[str, bytes], *names: str) -> Path:
 
 
 def test_an_empty_folder_is_listed(tmp_path: Path) -> None:
-    """A student whose folder contains no work is listed."""
+    """The program lists each student whose folder contains no work."""
     files = {f"s01/{FILE}": NOTEBOOK, "s02/.DS_Store": b"x"}
     found = _found(_with_folders(tmp_path, files, "s03", "s04/chapter 05/more"))
     assert found == {"s01": "", **dict.fromkeys(("s02", "s03", "s04"), "The student handed in nothing:")}
@@ -39,7 +39,7 @@ def test_a_folder_of_a_platform_is_no_student(tmp_path: Path) -> None:
 
 
 def test_the_folders_of_moodle(tmp_path: Path) -> None:
-    """If only one of a student's two folders contains work, no problem is reported."""
+    """If only one of a student's two folders contains work, the program reports no problem."""
     files = {f"A One_17_assignsubmission_file_/{FILE}": NOTEBOOK}
     names = ["A One_17_assignsubmission_onlinetext_", "A Two_18_assignsubmission_file_"]
     assert [*_found(_with_folders(tmp_path, files, *names))] == ["A One_17", "A Two_18"]
@@ -61,7 +61,7 @@ def test_a_link_to_a_folder_is_not_followed(tmp_path: Path) -> None:
 
 
 def test_the_reports_are_not_submissions(tmp_path: Path) -> None:
-    """If the folder of `--out` is among the submissions, the folder is ignored."""
+    """If the folder of `--out` is among the submissions, `course grade` ignores this folder."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "grades/feedback/s01.html": b"x"}, "s02/out")
     assert list(_found(source, source / "grades")) == ["s01", "s02"]
     assert list(_found(source)) == ["grades", "s01", "s02"]
@@ -69,7 +69,7 @@ def test_the_reports_are_not_submissions(tmp_path: Path) -> None:
 
 
 def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A folder with reports of an earlier run is ignored, and a message contains its name."""
+    """`course grade` ignores a folder with reports of an earlier run, and a message contains its name."""
     reports = dict.fromkeys(("old/.grading/secret", "old/class.html", "old/grades.csv"), b"x")
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, **reports})
     assert list(_found(source, tmp_path / "new")) == ["s01"]
@@ -79,7 +79,7 @@ def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 
 def test_reports_do_not_go_into_a_students_folder(tmp_path: Path) -> None:
-    """A folder that contains submissions is refused as the folder for `--out`."""
+    """A folder that contains submissions cannot be the folder for `--out`."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "old/.grading/secret": b"x"}, "new")
     for wrong in (source, source / "s01"):
         with pytest.raises(GradingError, match=r"--out .* already contains files of the submissions"):

@@ -65,7 +65,7 @@ def test_notebook_without_a_package(tmp_path: Path, seven: bytes) -> None:
 
 @pytest.mark.parametrize("place", ["workspace/src/my_geometry", "my_geometry-main", "07/my_geometry (2)"])
 def test_a_package_is_known_by_its_name(tmp_path: Path, place: str) -> None:
-    """A package is found in a workspace, and in a folder with another name."""
+    """The search finds a package in a workspace, and in a folder with another name."""
     write_package(tmp_path, f"s01/{place}", my_geometry())
     found = _only(tmp_path)
     assert (_package(found).name, found.notes) == ("my_geometry", ())
@@ -80,7 +80,7 @@ def test_folders_of_catkin_are_ignored(tmp_path: Path) -> None:
 
 
 def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
-    """If no part needs a package with the name in package.xml, the folder's name is used as package name."""
+    """If no part needs a package with the name in package.xml, the folder's name is the package name."""
     manifest = my_geometry()["package.xml"].decode().replace("<name>my_geometry<", "<name>my_geometri<")
     write_package(tmp_path, "s01/my_geometry", my_geometry({"package.xml": manifest}))
     found = _only(tmp_path)
@@ -98,7 +98,7 @@ def test_package_that_no_part_needs(tmp_path: Path) -> None:
 
 
 def test_newest_of_two_packages_with_one_name_is_used(tmp_path: Path) -> None:
-    """If two packages have the same name, the newer package is used, and the submission gets a note."""
+    """If two packages have the same name, the program uses the newer one, and the submission gets a note."""
     write_package(tmp_path, "s01/a", my_geometry())
     for path in write_package(tmp_path, "s01/b", my_geometry()).rglob("*"):
         os.utime(path, (1, 1))
@@ -108,7 +108,7 @@ def test_newest_of_two_packages_with_one_name_is_used(tmp_path: Path) -> None:
 
 
 def test_links_and_devices_are_left_out(tmp_path: Path) -> None:
-    """Links and devices in a package are ignored."""
+    """The program ignores links and devices in a package."""
     secret = folder(tmp_path / "secret", {"file": b"secret", "folder/file": b"secret"})
     root = tmp_path / "in"
     package = write_package(root, "s01/my_geometry", my_geometry())
@@ -123,7 +123,7 @@ def test_links_and_devices_are_left_out(tmp_path: Path) -> None:
 
 
 def test_a_package_xml_that_is_a_link(tmp_path: Path) -> None:
-    """A package whose package.xml is a link is not examined, and the error message contains the reason."""
+    """The program does not examine a package whose package.xml is a link, and the error says why."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     (package / "package.xml").unlink()
     (package / "package.xml").symlink_to("/etc/passwd")
@@ -141,7 +141,7 @@ def test_a_package_xml_that_is_a_link(tmp_path: Path) -> None:
     ids=["bytes", "files"],
 )
 def test_a_huge_package(tmp_path: Path, seven: bytes, files: dict[str, bytes], words: str) -> None:
-    """A package that is too large is not examined, but the notebook in the same folder is examined."""
+    """The program skips a package that is too large, but examines the notebook in the same folder."""
     folder(tmp_path, {f"s01/{SEVEN}": seven, f"s02/{SEVEN}": seven})
     write_package(tmp_path, "s01/my_geometry", my_geometry() | files)
     huge, other = submissions(tmp_path)
@@ -162,7 +162,7 @@ def test_permissions_that_were_lost(tmp_path: Path) -> None:
 
 
 def test_packages_in_a_zip(tmp_path: Path, seven: bytes) -> None:
-    """A zip can contain packages of several students, and paths that lead out of the zip are ignored."""
+    """A zip can contain packages of several students; the program ignores paths that lead out of the zip."""
     one = {f"s01/my_geometry/{path}": content for path, content in my_geometry().items()}
     second = {"s01/service_example/package.xml": b"<name>service_example</name>"}
     source = zipped(tmp_path / "a.zip", {f"s01/{SEVEN}": seven, **one, **second})

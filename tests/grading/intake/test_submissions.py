@@ -60,7 +60,7 @@ submission_12:
 
 
 def test_layouts(tmp_path: Path, five: bytes, six: bytes) -> None:
-    """The submissions in each platform's layout are found, in a folder and in a zip."""
+    """The program finds the submissions in each platform's layout, in a folder and in a zip."""
     layouts = {
         "hand": (
             {f"s02/{FIVE}": five, f"s01/{FIVE}": five, f"s01/{SIX}": six},
@@ -119,7 +119,7 @@ def test_canvas_marks_lateness(tmp_path: Path, five: bytes) -> None:
 
 
 def test_only_the_given_chapters_are_graded(tmp_path: Path, five: bytes, six: bytes) -> None:
-    """Only the given chapters are graded, and an unknown chapter is refused."""
+    """`course grade` grades only the given chapters, and refuses an unknown chapter."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, f"s01/{SIX}": six})
     assert _kept(submissions(source, ["06"])) == [("s01", "06")]
     with pytest.raises(AuthoringError, match="chapter 77"):
@@ -137,7 +137,7 @@ def test_cells_identify_the_chapter(tmp_path: Path, five: bytes, name: str) -> N
 
 
 def test_notebook_without_exercises(tmp_path: Path) -> None:
-    """For a notebook without exercises, the ids of the other cells identify the chapter."""
+    """If a notebook contains no exercises, the ids of its other cells identify the chapter."""
     notebook = handed_out("05")
     notebook["cells"] = [cell for cell in notebook["cells"] if "course" not in cell["metadata"]]
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(notebook)}))
@@ -197,7 +197,7 @@ def test_a_chapter_whose_exercises_were_renumbered(tmp_path: Path) -> None:
 
 
 def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
-    """The error message names the exercises that have moved to another chapter."""
+    """If exercises have moved to another chapter, the error message for a notebook names these exercises."""
     chapter = next(each for each in RENUMBERED if each.number == "10")
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(_of_first_edition(chapter))}))
     assert "and it is chapter 12 now. Exercise 10.1 is now exercise 10.4 in chapter 10" in found.problem
@@ -207,14 +207,14 @@ def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
 def test_a_notebook_of_this_edition_under_a_name_of_the_first(
     tmp_path: Path, chapter: RenumberedChapter
 ) -> None:
-    """A notebook with this edition's exercises is graded, even if its name is from the first edition."""
+    """A notebook with this edition's exercises gets a grade, even if its name is from the first edition."""
     content = raw(handed_out(chapter.now))
     source = folder(tmp_path, {f"s01/{chapter.name}.ipynb": content, "s02/mine.ipynb": content})
     assert _kept(submissions(source)) == [("s01", chapter.now), ("s02", chapter.now)]
 
 
 def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
-    """If a chapter has two notebooks, the newer notebook is graded, and a note names the older notebook."""
+    """If a chapter has two notebooks, the program grades the newer one, and a note names the older one."""
     source = folder(
         tmp_path,
         {f"one_1_2{n}_05_write_a_server{end}.ipynb": five for n, end in enumerate(["", "-2", "-10"])},
@@ -230,7 +230,7 @@ def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
 
 
 def test_readable_notebook_is_used_instead_of_a_broken_one(tmp_path: Path, five: bytes) -> None:
-    """If only one notebook of a chapter can be read, this notebook is graded."""
+    """If the program can read only one notebook of a chapter, it grades this notebook."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, "s01/05_write_a_server (2).ipynb": b"{"})
     [found] = submissions(source)
     assert (found.origin, found.problem) == (f"s01/{FIVE}", "")
@@ -238,7 +238,7 @@ def test_readable_notebook_is_used_instead_of_a_broken_one(tmp_path: Path, five:
 
 
 def test_files_of_systems_and_editors_are_ignored(tmp_path: Path, five: bytes) -> None:
-    """Files that operating systems and editors create are ignored."""
+    """The program ignores files that operating systems and editors create."""
     litter = [
         "__MACOSX/s01/._" + FIVE,
         "s01/.ipynb_checkpoints/" + FIVE,
@@ -274,7 +274,7 @@ BAD = {
 
 @pytest.mark.parametrize(("content", "words"), BAD.values(), ids=BAD)
 def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None:
-    """For an unreadable file, the error message contains the file name and what to do next."""
+    """If a file is unreadable, the error message contains the file name and what to do next."""
     for source in (
         folder(tmp_path / "a", {f"s01/{FIVE}": content}),
         zipped(tmp_path / "a.zip", {f"s01/{FIVE}": content}),
@@ -296,14 +296,14 @@ def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None
     ],
 )
 def test_files_without_a_chapter_or_student(tmp_path: Path, name: str, words: str) -> None:
-    """Files without a chapter or a student are listed."""
+    """The program lists files that belong to no chapter or to no student."""
     [found] = submissions(folder(tmp_path, {name: b'{"cells": []}'}))
     assert words in found.problem
     assert found.chapter == ""
 
 
 def test_many_other_files_are_one_problem(tmp_path: Path, five: bytes) -> None:
-    """All unusable files of a student are reported in one error message."""
+    """One error message reports all unusable files of a student."""
     others = {f"s01/photo_{number}.png": b"x" for number in range(9)}
     found = submissions(folder(tmp_path, {f"s01/{FIVE}": five, **others}))
     assert [each.chapter for each in found] == ["", "05"]
@@ -311,7 +311,7 @@ def test_many_other_files_are_one_problem(tmp_path: Path, five: bytes) -> None:
 
 
 def test_links_are_not_followed(tmp_path: Path, five: bytes) -> None:
-    """Links to files and folders are not followed."""
+    """The program does not follow links to files and folders."""
     secret = folder(tmp_path / "secret", {f"s09/{FIVE}": five})
     source = folder(tmp_path / "in", {f"s03/{FIVE}": five})
     (source / "s01").mkdir()
@@ -336,7 +336,7 @@ def test_pipe_is_not_opened(tmp_path: Path) -> None:
 
 
 def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """For a file without read permission, the error message asks the instructor to change the permissions."""
+    """If a file cannot be read, the error message asks the instructor to change the file's permissions."""
 
     def refuse(*_: object) -> int:
         raise PermissionError(13, "Permission denied")
@@ -351,14 +351,14 @@ def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: p
     "name", ["../s01/" + FIVE, "/s01/" + FIVE, "C:\\s01\\" + FIVE, "s01/../../" + FIVE, "..\\s01\\" + FIVE]
 )
 def test_paths_that_lead_out(tmp_path: Path, five: bytes, name: str) -> None:
-    """A zip member whose path leads out of the zip is not graded."""
+    """The program does not grade a zip member whose path leads out of the zip."""
     [found] = submissions(zipped(tmp_path / "a.zip", {name: five}))
     assert "leads out" in found.problem
     assert [path.name for path in tmp_path.iterdir()] == ["a.zip"]
 
 
 def test_a_link_in_a_zip(tmp_path: Path) -> None:
-    """A link in a zip is not followed."""
+    """The program does not follow a link in a zip."""
     source = zipped(
         tmp_path / "a.zip", {f"s01/{FIVE}": b"/etc/passwd"}, external_attr=(stat.S_IFLNK | 0o777) << 16
     )
@@ -367,7 +367,7 @@ def test_a_link_in_a_zip(tmp_path: Path) -> None:
 
 
 def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
-    """A huge zip member is not unpacked, even if the zip contains a wrong size."""
+    """The program does not unpack a huge zip member, even if the zip contains a wrong size."""
     bomb = b" " * (archive.LARGEST - 5)
     source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": bomb, f"s02/{FIVE}": five})
     bad, good = submissions(source)
@@ -381,14 +381,14 @@ def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
 
 
 def test_total_size_of_a_zip_is_limited(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After the size limit is reached, the remaining files are listed, but not read."""
+    """After the size limit is reached, the program lists the remaining files, but does not read them."""
     monkeypatch.setattr(archive, "ALTOGETHER", len(five) * 5 // 2)
     found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
     assert [bool(each.problem) for each in found] == [False, False, True, True]
 
 
 def test_number_of_members_is_limited(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Only the first files of a large zip are graded."""
+    """The program grades only the first files of a large zip."""
     monkeypatch.setattr(archive, "MEMBERS", 2)
     found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
     assert [(each.student, bool(each.problem)) for each in found] == [
@@ -399,7 +399,7 @@ def test_number_of_members_is_limited(tmp_path: Path, five: bytes, monkeypatch: 
 
 
 def test_a_damaged_or_locked_member(tmp_path: Path, five: bytes) -> None:
-    """A zip member with a wrong checksum or a password is reported."""
+    """The program reports a zip member with a wrong checksum or a password."""
     source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": five})
     with zipfile.ZipFile(source) as archive:
         middle = archive.infolist()[0].compress_size // 2
@@ -441,7 +441,7 @@ def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content
 
 
 def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
-    """A file in a student's folder never counts for another student who is named in the file's path."""
+    """A file in a student's folder never counts for another student whose name is in the file's path."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
         "submission_metadata.yml": GRADESCOPE,

@@ -21,7 +21,7 @@ from course_pkg.setup import Places
 def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
     """Return a notebook; each element of `cells` is a pair of a source and its expected output.
 
-    If `check` is given, the last cell is the check of the part with this id.
+    If the id of a part is given, the last cell is the check of this part.
     """
     made = nbformat.v4.new_notebook()
     for number, (source, shown) in enumerate(cells):

@@ -52,7 +52,7 @@ BEFORE = ["", "\n\n", "  \n\t\n", ">>> ", "In [1]: ", "\x0c\n", "\r\n"]
 @pytest.mark.parametrize("magic", MAGICS)
 @pytest.mark.parametrize("before", BEFORE)
 def test_magic_of_a_cell_is_removed(magic: str, before: str) -> None:
-    """The magic is removed, and the other lines run as Python."""
+    """The function removes the cell magic, and the other lines run as Python."""
     made = defuse(f"{before}{magic}\n{DEF}")
     code = TransformerManager().transform_cell(made.source)
     assert "run_cell_magic" not in code
@@ -63,7 +63,7 @@ def test_magic_of_a_cell_is_removed(magic: str, before: str) -> None:
 
 
 def test_a_magic_below_a_magic() -> None:
-    """After the first magic is removed, a magic in the next line is removed too."""
+    """After the first magic, the function also removes a magic in the next line."""
     made = defuse("%%time\n%%script true\n" + DEF)
     assert magic_of(made.source) == ""
 
@@ -96,7 +96,7 @@ def test_a_cell_that_writes_a_file_writes_that_file(source: str, notes: int) -> 
 
 
 def test_invalid_characters_are_removed() -> None:
-    """Null characters and unpaired surrogates are removed, and each line ends with LF."""
+    """The function removes null characters and unpaired surrogates, and ends each line with LF."""
     made = defuse("x = 1\x00\r\ny = '\ud800'\rz = 2")
     assert made.source == "x = 1\ny = '?'\nz = 2"
     made.source.encode()

@@ -40,7 +40,7 @@ REFERENCE = book(
 
 
 def _student(change: Callable[[Cells], object] = lambda _: None, **answers: str) -> bytes:
-    """Return a student's notebook with these answers, and apply `change` to its cells.
+    """Return a student's notebook with these answers, and make a change to its cells.
 
     The keys of `answers` are "d", "c" and "w", for the cells D, C and W.
     """
@@ -65,7 +65,7 @@ def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
 
 
 def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
-    """Insert a student's own cells below the cell with the id `name`, or above it if `shift` is 0."""
+    """Insert a student's own cells below the named cell, or above it if `shift` is 0."""
     place = _place(cells, name) + shift
     cells[place:place] = [code(source, id=f"own-{place}-{number}") for number, source in enumerate(sources)]
 
@@ -165,7 +165,7 @@ TAKEN = {
 
 @pytest.mark.parametrize("change", TAKEN.values(), ids=TAKEN)
 def test_the_answer_is_found(change: Callable[[Cells], object]) -> None:
-    """An answer is found even if its cell was copied, moved or split."""
+    """The search finds an answer even if its cell was copied, moved or split."""
     made = _rebuilt(_student(change))
     assert [line for line in made.answers["05.1"].split("\n") if line] == [
         line for line in ANSWER.split("\n") if line
@@ -175,7 +175,7 @@ def test_the_answer_is_found(change: Callable[[Cells], object]) -> None:
 
 @pytest.mark.parametrize("kind", ["markdown", "raw"])
 def test_a_cell_of_another_kind(kind: str) -> None:
-    """If the cell of an exercise is a Markdown cell, its text is used as code."""
+    """If the cell of an exercise is a Markdown cell, the text of the cell counts as code."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)].update(cell_type=kind, source=ANSWER)
@@ -188,14 +188,14 @@ def test_a_cell_of_another_kind(kind: str) -> None:
 
 
 def test_last_of_several_answers_is_used() -> None:
-    """The last of several answers is used, and the answer gets a note."""
+    """If there are several answers, the last answer counts and gets a note."""
     made = _rebuilt(_student(lambda cells: _copied(cells, D, OTHER), d=ANSWER))
     assert made.answers["05.1"] == OTHER
     assert made.notes == ("05.1: 2 cells answer this exercise. Only the last of these cells was used.",)
 
 
 def test_identical_copy_leads_to_no_note() -> None:
-    """A copied exercise cell with the same answer, no code or the blank exercise leads to no note."""
+    """A copied exercise cell with the same answer, no code or a blank exercise does not cause a note."""
     for source in (ANSWER, "", BLANK):
         made = _rebuilt(_student(lambda cells, source=source: _copied(cells, D, source), d=ANSWER))
         assert (made.answers["05.1"], made.notes) == (ANSWER, ())
@@ -225,7 +225,7 @@ def test_a_file_that_was_split() -> None:
     ["double(21)", "x = double(1)\nprint(x)", "while True:\n    pass", "%%bash\n  ls", "!ls", "# thoughts"],
 )
 def test_cells_that_the_answer_does_not_need_are_left_out(source: str) -> None:
-    """A cell that the answer does not need is left out."""
+    """The rebuilt notebook does not contain a cell that the answer does not need."""
     made = _rebuilt(_student(lambda cells: _own(cells, D, source), d=ANSWER))
     assert (made.answers["05.1"], made.notes) == (ANSWER, ())
 
@@ -272,7 +272,7 @@ def test_missing_answer_has_a_reason() -> None:
 
 
 def test_an_answer_of_absurd_length() -> None:
-    """An answer that is too long is not run."""
+    """The program does not run an answer that is too long."""
     made = _rebuilt(_student(d=ANSWER + "\n#" + "x" * 100_001))
     assert "100000 characters" in made.missing["05.1"]
 
@@ -303,14 +303,14 @@ def test_tags_and_metadata_of_the_student_stay_out() -> None:
 
 
 def test_markers_and_magics_are_removed() -> None:
-    """Markers of nbval and cell magics in answers are removed, and each removal leads to a note."""
+    """The program removes markers of nbval and cell magics from answers, and adds a note for each removal."""
     made = _rebuilt(_student(d="%%script true\n# NBVAL_SKIP\n" + ANSWER))
     assert made.answers["05.1"] == "# %%script has no effect here\n# (NBVAL_SKIP)\n" + ANSWER
     assert len(made.notes) == 2
 
 
 def test_checks_and_given_cells_do_not_change() -> None:
-    """Changes to the checks and to the given cells are ignored."""
+    """The program ignores changes to the checks and to the given cells."""
 
     def change(cells: Cells) -> None:
         for cell in cells:
@@ -324,7 +324,7 @@ def test_checks_and_given_cells_do_not_change() -> None:
     "content", [b"", b"{", b"[]", b"\xff", b'{"cells": 1}', b'{"cells": ' + b"[" * 100_000]
 )
 def test_what_is_no_notebook(content: bytes) -> None:
-    """For a file that is not a notebook, each part has a reason why its answer is missing."""
+    """If the file is not a notebook, the result contains a reason for the missing answer to each part."""
     made = _rebuilt(content)
     assert made.problem
     assert set(made.missing.values()) == {made.problem}
@@ -345,14 +345,14 @@ def test_what_is_no_notebook(content: bytes) -> None:
     ],
 )
 def test_cells_that_are_none(cell: object) -> None:
-    """Invalid cells are ignored, and the other cells are graded."""
+    """The program ignores invalid cells, and grades the other cells."""
     made = _rebuilt(_student(lambda cells: cells.insert(0, cell), d=ANSWER))  # type: ignore[arg-type]
     assert made.answers["05.1"] == ANSWER
 
 
 @pytest.mark.parametrize("version", [2, 3])
 def test_an_old_format(version: int) -> None:
-    """The answers in notebooks of the old formats 2 and 3 are found."""
+    """The program finds the answers in notebooks of the old formats 2 and 3."""
     notebook = nbformat.from_dict(json.loads(_student(d=ANSWER, c=COUNTER, w=WRITES)))
     old = nbformat.convert(notebook, version)
     made = _rebuilt(json.dumps(old).encode())
@@ -377,7 +377,7 @@ MANY = {
 
 @pytest.mark.parametrize("made_of", MANY.values(), ids=MANY)
 def test_ten_thousand_cells(made_of: Callable[[int], Cell]) -> None:
-    """A notebook with ten thousand cells is rebuilt quickly."""
+    """The program rebuilds a notebook with ten thousand cells quickly."""
 
     def change(cells: Cells) -> None:
         place = _place(cells, D) + 1
@@ -401,7 +401,7 @@ def test_ten_thousand_cells(made_of: Callable[[int], Cell]) -> None:
     ],
 )
 def test_sources_built_to_take_long(source: str) -> None:
-    """Sources with very long lines are read quickly."""
+    """The program reads sources with very long lines quickly."""
     _rebuilt(_student(lambda cells: _own(cells, D, source), d=source, c=source, w=source))
 
 

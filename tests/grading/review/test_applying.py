@@ -78,7 +78,7 @@ def test_a_reviewed_part_needs_no_look() -> None:
 
 
 def test_long_code_is_the_same_in_the_record(tmp_path: Path) -> None:
-    """For a long answer, answer_of() returns the same text before and after the grade is stored."""
+    """If an answer is long, answer_of() returns the same text before and after the grade is stored."""
     grade = replace(graded("s01"), code={"05.1": "line = 1\r\n" * 1500})
     _reports(tmp_path, [grade])
     assert answer_of(read_grades(tmp_path)[0], "05.1") == answer_of(grade, "05.1")

@@ -32,7 +32,7 @@ def _read(folder: Path, content: str | bytes) -> None:
 
 @pytest.mark.parametrize(("row", "message"), WRONG)
 def test_a_wrong_row_is_reported_with_its_line(tmp_path: Path, row: str, message: str) -> None:
-    """For a wrong row, the error message contains the line number, and overrides.csv does not change."""
+    """If a row is wrong, the error message contains the line number, and overrides.csv does not change."""
     with pytest.raises(GradingError) as caught:
         _read(tmp_path, HEAD + row)
     assert message in str(caught.value)
@@ -50,7 +50,7 @@ def test_other_encodings_and_columns(tmp_path: Path) -> None:
 
 
 def test_a_part_that_a_spreadsheet_may_have_changed(tmp_path: Path) -> None:
-    """If the parts 15.1 and 15.10 both exist, a row for 15.1 is refused.
+    """If the parts 15.1 and 15.10 both exist, the program refuses a row for 15.1.
 
     A spreadsheet changes the text 15.10 to 15.1.
     """

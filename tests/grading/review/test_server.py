@@ -70,7 +70,7 @@ def _refused(out: Path, *options: str) -> str:
 
 
 def test_the_command(tmp_path: Path) -> None:
-    """A second `course review` for the same folder is refused, and saved points remain after SIGKILL."""
+    """The server refuses a second `course review` for a folder, and SIGKILL deletes no saved points."""
     out = write_class(tmp_path / "grades")
     with _review(out, "--part", "5.1") as (process, url, token):
         own = {"Authorization": f"token {token}"}
@@ -100,7 +100,7 @@ def test_the_command_explains_what_is_wrong(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["student,part\n", "\xff"])
 def test_a_wrong_file_stops_the_review(tmp_path: Path, content: str) -> None:
-    """For a wrong overrides.csv, the error message contains the line number, and the file does not change."""
+    """If overrides.csv is wrong, the error message contains the line number, and the file stays unchanged."""
     out = write_class(tmp_path / "grades")
     (out / "overrides.csv").write_bytes(content.encode("latin-1"))
     assert "line 1" in _refused(out)

@@ -36,7 +36,7 @@ def _matched(origins: Origins, roster: tuple[Person, ...] = ROSTER) -> ClassList
     ],
 )
 def test_who_is_found(student: str, origin: str) -> None:
-    """The name of a folder is any field of the student in the roster, or a name with a platform's number."""
+    """A submission is named after the student's user name, address, id or name, with or without a number."""
     found = _matched({student: [origin]})
     assert found.people[student].line == JANE.line
     assert (found.found, found.strangers, found.unclear) == (1, (), {})
@@ -50,7 +50,7 @@ def test_names_in_any_order_and_with_any_accents(name: str) -> None:
 
 
 def test_two_students_with_one_name() -> None:
-    """If a name is in two rows of the roster, the student is reported as unclear."""
+    """If a name is in two rows of the roster, the program reports the student as unclear."""
     found = _matched({"Ann Lee": ["Ann Lee/05.ipynb"]})
     assert "Ann Lee" not in found.people
     assert found.unclear == {"Ann Lee": "the student fits several rows of the roster (lines 4 and 5)"}
@@ -65,7 +65,7 @@ def test_a_number_decides_between_two_students_with_one_name() -> None:
 
 
 def test_parts_that_contradict_each_other() -> None:
-    """If a folder's number and name belong to different students, the student is reported as unclear."""
+    """If a folder's number and name belong to different students, the program reports this as unclear."""
     found = _matched({"doejane_18": ["doejane_18_99_05.ipynb"]})
     assert "different rows of the roster (lines 2 and 3)" in found.unclear["doejane_18"]
     assert found.people["doejane_18"] == Person("doejane", "18")
@@ -84,7 +84,7 @@ def test_a_roster_with_the_numbers_of_moodle() -> None:
 
 
 def test_two_folders_of_one_student() -> None:
-    """If two folders belong to the same row of the roster, both folders are reported as unclear."""
+    """If two folders belong to the same row of the roster, the program reports both folders as unclear."""
     found = _matched({"jdoe": ["jdoe/05.ipynb"], "Jane Doe": ["Jane Doe/05.ipynb"]})
     assert found.unclear == {
         "jdoe": "the student fits the same row of the roster (line 2) as Jane Doe",
@@ -117,7 +117,7 @@ def test_the_summary() -> None:
 
 
 def test_without_lists() -> None:
-    """Without a roster, the names and numbers that the platforms assign identify the students."""
+    """Without a roster, the names and numbers from the platforms identify the students."""
     found = Lists().matched({"doejane_17": ["doejane_17_99_05.ipynb"], "s01": ["s01/05.ipynb"]})
     assert found.people == {"doejane_17": Person("doejane", "17")}
     assert list(found.summary()) == []

@@ -55,7 +55,7 @@ def test_columns_that_are_missing(tmp_path: Path, content: str, person: Person) 
 
 
 def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
-    """In Canvas's export, the row of possible points and the test student are ignored."""
+    """In Canvas's export, the program ignores the row of possible points and the test student."""
     content = (
         "Student,ID,SIS User ID,SIS Login ID,Section,Lab 1 (99)\n    Points Possible,,,,,9.0\n"
         '"Doe, Jane",17,S4,jdoe,ROS 2026,\n"Student, Test",18,,f00,ROS 2026,\n'
@@ -85,7 +85,7 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
     ],
 )
 def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """For a wrong roster, the error message contains the mistake and its line, but no cell of the file."""
+    """If the roster is wrong, the error message contains the mistake and its line, but no cell."""
     with pytest.raises(GradingError, match=message) as caught:
         read_roster(_file(tmp_path, content))
     assert "roster.csv" in str(caught.value)
@@ -99,6 +99,9 @@ def test_no_roster(tmp_path: Path) -> None:
 
 
 def test_labels() -> None:
-    """A student's label is the student's name. For equal names, the label also contains the line number."""
+    """A student's label is the student's name.
+
+    If two students have the same name, the label also contains the line number.
+    """
     people = [JANE, Person(email="a@b.example", line=3), Person("Jane Doe", line=4)]
     assert list(labels(people)) == ["Jane Doe (line 2)", "a@b.example", "Jane Doe (line 4)"]

@@ -66,7 +66,7 @@ def test_only_two_cells_change(tmp_path: Path, content: str, grade: int, written
 def test_the_participants(
     tmp_path: Path, content: str, maxima: list[float | None], locked: list[bool]
 ) -> None:
-    """The participants and their maximum grades are read from worksheets in each language."""
+    """The program reads the participants and their maximum grades from worksheets in each language."""
     found = _read(tmp_path, content).participants
     assert [each.maximum for each in found] == maxima
     assert [each.locked for each in found] == locked
@@ -95,7 +95,7 @@ def test_the_participants(
     ],
 )
 def test_a_file_that_moodle_would_refuse(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """For a wrong worksheet, the error message contains the mistake and its line, but no cell of the file."""
+    """If a worksheet is wrong, the error message contains the mistake and its line, but no cell."""
     with pytest.raises(GradingError, match=message) as caught:
         _read(tmp_path, content)
     assert "sheet.csv" in str(caught.value)

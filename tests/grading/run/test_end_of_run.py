@@ -31,7 +31,7 @@ def test_points_before_and_after() -> None:
 
 
 def test_parts_that_only_one_run_has() -> None:
-    """An added or removed part is reported as a change."""
+    """The output reports an added or removed part as a change."""
     shorter = replace(FULL, reports=FULL.reports[:1])
     assert list(map(str, changes([shorter], [FULL]))) == ["s01, 05.2: none before, 2 now"]
     assert list(map(str, changes([FULL], [shorter]))) == ["s01, 05.2: 2 before, none now"]

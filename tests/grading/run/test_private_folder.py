@@ -29,13 +29,13 @@ CHAPTERS = ["05", "06"]
     ],
 )
 def test_a_wrong_folder_is_refused(tmp_path: Path, files: dict[str, bytes], said: str) -> None:
-    """For a wrong file, the error message contains the file name and the valid names."""
+    """If a file name is wrong, the error message contains this name and the valid names."""
     with pytest.raises(GradingError, match=said):
         require_names(folder(tmp_path, files), CHAPTERS)
 
 
 def test_another_file_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A file with a completely different name is not used, and a message contains its name."""
+    """If a file's name is not similar to any valid name, the program ignores the file and prints its name."""
     require_names(folder(tmp_path, {"private_05.py": b"x", "notes.md": b"", ".git/config": b""}), CHAPTERS)
     assert "notes.md" in capsys.readouterr().err
     require_names(folder(tmp_path / "a", {"points.json": b"{}"}), CHAPTERS)

@@ -81,7 +81,7 @@ def test_a_class_over_several_runs(tmp_path: Path) -> None:
     ],
 )
 def test_an_option_that_makes_no_sense(tmp_path: Path, words: list[str], said: str) -> None:
-    """For a wrong option, the error message contains the option, and no submission is graded."""
+    """If an option is wrong, the error message contains the option, and `course grade` grades nothing."""
     hand_in(tmp_path, "s01", "00")
     options = vars(parse(["grade", str(tmp_path), "--out", str(tmp_path / "grades"), *words]))
     with pytest.raises(CourseError, match=re.escape(said)):

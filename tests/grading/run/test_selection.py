@@ -31,7 +31,7 @@ def _chosen(selected: Selection) -> list[tuple[str, str]]:
 
 
 def test_nothing_selects_everything() -> None:
-    """Without an option, all submissions are graded."""
+    """Without an option, `course grade` grades all submissions."""
     selected = selection((), (), ())
     assert _chosen(selected) == [(each.student, each.chapter) for each in SUBMISSIONS]
     assert selected.everything
@@ -124,7 +124,7 @@ def test_a_part_alone_is_graded_only_for_the_same_notebook() -> None:
 def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
     """A result outside the selection does not change.
 
-    If this run has no submission for a selected result, the result is marked in the reports.
+    If this run has no submission for a selected result, the reports mark this result.
     """
     write_reports([*class_of(3, ("05", "06")), refused("s09", "")], tmp_path)
     earlier = read_earlier(tmp_path)
@@ -143,7 +143,7 @@ def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
 
 
 def test_another_assignment_in_the_same_folder(tmp_path: Path) -> None:
-    """If no student submitted a chapter in this run, the chapter's earlier results are not marked."""
+    """If no student submitted a chapter in this run, the reports do not mark its earlier results."""
     write_reports(class_of(2, ("05", "06")), tmp_path)
     earlier = read_earlier(tmp_path)
     now = [grade for grade in earlier.grades if grade.chapter == "06" and grade.student == "s01"]
@@ -156,7 +156,7 @@ def test_another_assignment_in_the_same_folder(tmp_path: Path) -> None:
 def test_kept_grades_belong_to_no_student(tmp_path: Path) -> None:
     """A newly graded part replaces the stored part.
 
-    A stored grade of the same notebook with other options is removed.
+    The run removes a stored grade of the same notebook with other options.
     """
     submission = SUBMISSIONS[0]
     store = Store(tmp_path)

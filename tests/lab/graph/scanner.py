@@ -67,7 +67,7 @@ def accepts(name: str) -> bool:
 
 
 def asked(name: str, port: int) -> list[str]:
-    """Return the roles ("master", "node", "service") in which the port answers to requests for `name`."""
+    """Return the roles ("master", "node", "service") in which a port answers requests for a name."""
     answers = {
         "master": f"/{name}".encode() in call(port, "getSystemState"),
         "node": f"/{name}".encode() in call(port, "getName"),
@@ -77,7 +77,7 @@ def asked(name: str, port: int) -> list[str]:
 
 
 def found(name: str, paths: list[str]) -> Iterator[str]:
-    """Yield "master", "node", "service" or "socket" for each one that is found, and each open path."""
+    """Yield "master", "node", "service" or "socket" for each match, and each path that can be opened."""
     with ThreadPoolExecutor(30) as threads:
         for kinds in threads.map(lambda port: asked(name, port), set(ports())):
             yield from kinds

@@ -88,9 +88,9 @@ def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
 
 
 def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
-    """If the process that holds a graph is killed with SIGKILL, the master of the graph ends.
+    """If the process that keeps a graph's network is killed with SIGKILL, the master of the graph ends.
 
-    The socket file of the killed process is removed when the next command starts or ends.
+    The next command removes the socket file of the killed process when it starts or ends.
     """
     processes = of_graphs(tmp_path)
     os.kill(processes[0], signal.SIGKILL)
@@ -109,7 +109,7 @@ def test_without_namespaces_the_graph_is_in_the_machines_network(tmp_path: Path)
     with pytest.MonkeyPatch.context() as patch:
         (tmp_path / "rosmaster").write_text('#!/bin/sh\nexec /usr/bin/rosmaster "$@"\n')
         (tmp_path / "rosmaster").chmod(0o755)
-        patch.setenv("PATH", str(tmp_path))  # no program nsenter
+        patch.setenv("PATH", str(tmp_path))  # There is no program nsenter.
         graph = join_or_start(Which.RUNNING, tmp_path)
     assert "nsenter" in graph.reason
     assert graph.files == []
@@ -140,6 +140,6 @@ def test_a_command_in_a_graph_stays_in_it(graph: Graph) -> None:
 
 
 def of_graphs(folder: Path) -> list[int]:
-    """Return the process that holds the graph, and the descendants of this process."""
+    """Return the process that keeps the graph's private network, and the descendants of this process."""
     [holder] = eventually(lambda: having(b"holder.py\0", descendants(os.getpid())))[:1]
     return [holder, *descendants(holder)]

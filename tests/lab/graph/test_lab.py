@@ -81,7 +81,10 @@ def test_nothing_is_left_after_a_kill_and_the_end(served: Service, victim: bytes
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
 def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
-    """After `course run`, its master or the graph's holder was killed 100 times, no process remains."""
+    """After each of 100 kills, no process remains.
+
+    The test kills `course run`, its master, or the process that keeps the private network.
+    """
     victims = [b"", b"rosmaster\0--core", HOLDER]
     left = []
     for number in range(100):
@@ -92,9 +95,9 @@ def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
 
 
 def killed(victim: bytes, state: Path) -> list[int]:
-    """Start `course run`, kill its process `victim`, and return the processes that still run.
+    """Start `course run`, kill one of its processes, and return the processes that still run.
 
-    If `victim` is empty, kill `course run` itself.
+    `victim` is a text in the command line of this process. If the text is empty, kill `course run` itself.
     """
     with running("run", "sleep", "1000", XDG_STATE_HOME=str(state)) as process:
         eventually(lambda: "sleep" in names(below(process)), timeout=60)

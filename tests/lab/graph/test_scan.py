@@ -45,14 +45,14 @@ def scan(*command: str, name: str, sockets: list[str] = []) -> list[str]:  # noq
 
 
 def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
-    """Return the names of the sockets on which `pids` listen and which are visible in /proc/net.
+    """Return the names of the sockets on which the given processes listen and which /proc/net shows.
 
     A name is the address of a TCP or UDP socket, or the path of a Unix socket. The addresses have the format
     of /proc/net.
     """
     owned: set[str] = set()
     for pid in pids:
-        with suppress(OSError):  # the process has ended
+        with suppress(OSError):  # The process has ended.
             owned |= {os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir()}
     names = set()
     for kind in kinds:

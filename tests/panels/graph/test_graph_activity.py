@@ -25,7 +25,7 @@ SERVICES = (
 def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot:
     """Return a snapshot of a graph with four nodes.
 
-    The node `dead` is registered, but its process does not run.
+    If the name of a dead node is given, this node is registered, but its process does not run.
     """
     names = ("/client", "/listener", "/server", "/talker")
     nodes = tuple(
@@ -55,9 +55,9 @@ class Wall:
 
 
 def counts(*messages: int, every: float = 2.0) -> list[Activity]:
-    """Return one Activity object for each message count of the topic /chatter in `messages`.
+    """Return one Activity object for each of the given message counts of the topic /chatter.
 
-    The times of two consecutive Activity objects differ by `every` s.
+    The time between two consecutive Activity objects is constant, with a default of 2 s.
     """
     return [
         Activity(turn * every, (Traffic("/chatter", "/talker", "/listener", 7, count),))
@@ -164,7 +164,7 @@ CALLERS = {
 
 
 def test_callers_are_listed_and_ended_callers_are_marked() -> None:
-    """The latest caller is first in the list of callers, and callers that have ended are marked."""
+    """The latest caller is first in the list of callers, and the list marks callers that have ended."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert wall.now["callers"]["service /robot/ask"] == [
@@ -178,7 +178,7 @@ def test_callers_are_listed_and_ended_callers_are_marked() -> None:
 
 
 def test_a_killed_caller_is_gone() -> None:
-    """A caller whose process was killed is marked as gone."""
+    """The panel marks a caller whose process was killed as gone."""
     wall = Wall(graph(dead="/client"))
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert [each["gone"] for each in wall.now["callers"]["service /robot/ask"]] == [True, True]
@@ -251,7 +251,7 @@ def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
 def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) -> RateMeter:
     """Return a rate meter that has read the message count of a steady publisher every 2 s.
 
-    Each reading is at most `late` s late.
+    Each reading happens up to `late` s after its planned time.
     """
     meter, chance = RateMeter(), random.Random(seed)  # noqa: S311 - a test's own dice
     for turn in range(int(seconds / 2) + 1):
@@ -295,7 +295,7 @@ def test_a_restarted_publisher_is_counted_from_its_start() -> None:
 
 
 def test_the_memory_is_bounded() -> None:
-    """Counts older than 30 s are deleted."""
+    """The meter deletes counts that are older than 30 s."""
     meter = counted(10, 600)
     assert len(meter._counts) <= LONG / 2 + 1
 
@@ -312,7 +312,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The result differs by at most `doubt` from `rate`, and has as few digits as possible."""
+    """The result has as few digits as possible, and differs from the rate by at most the uncertainty."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 
@@ -328,7 +328,7 @@ def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, show
     ],
 )
 def test_a_rate_as_text(rate: float, shown: str) -> None:
-    """A rate as text has a unit, and at most 12 characters."""
+    """The text of a rate has a unit, and at most 12 characters."""
     assert rate_text(rate) == shown
     assert len(shown) <= 12
 

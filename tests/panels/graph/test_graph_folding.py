@@ -25,7 +25,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def graph(*topics: tuple[str, str, str], services: dict[str, str] | None = None) -> Snapshot:
-    """Return a snapshot with `topics`, as (publisher, name, subscriber), and with `services`."""
+    """Return a snapshot with services and topics; a topic is a tuple (publisher, name, subscriber)."""
     offered = services or {}
     names = sorted({name for who, _, whom in topics for name in (who, whom)} | set(offered.values()))
     return Snapshot(
@@ -49,7 +49,7 @@ NESTED = graph(
 
 
 def many(count: int) -> Snapshot:
-    """Return a snapshot of `count` turtles with three topics each."""
+    """Return a snapshot of several turtles with three topics each."""
     kinds = ("pose", "color", "scan")
     return graph(*(("/sim", f"/turtle{n}/{kind}", "/watch") for n in range(count) for kind in kinds))
 
@@ -60,7 +60,7 @@ def names(shown: Picture) -> set[str]:
 
 
 def test_a_namespace_has_two_or_more_shapes() -> None:
-    """A common name prefix is a namespace only if at least two nodes, topics or services have it."""
+    """A common name prefix is a namespace only if at least two nodes, topics or services begin with it."""
     assert set(namespaces(picture(TURTLE))) == {"/turtle1/"}
     lonely = graph(("/a", "/far/away/one", "/b"), ("/a", "/far/away/two", "/b"), ("/a", "/x/y", "/b"))
     assert set(namespaces(picture(lonely))) == {"/far/away/"}

@@ -22,7 +22,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 def snapshot(
     *, topics: tuple[TopicSeen, ...] = (), services: tuple[ServiceSeen, ...] = (), dead: str = ""
 ) -> Snapshot:
-    """Return a snapshot of `topics`, `services`, and the nodes that publish, subscribe or serve them."""
+    """Return a snapshot of topics and services, with the nodes that publish, subscribe or serve them."""
     names = {name for topic in topics for name in (*topic.publishers, *topic.subscribers)}
     names |= {service.node for service in services}
     nodes = tuple(
@@ -76,7 +76,7 @@ def test_the_order_of_the_snapshot_does_not_matter() -> None:
 
 
 def test_the_graph_as_text_contains_no_port() -> None:
-    """The text lists the topics and services of each node, and is the same in every run."""
+    """The plain text lists the topics and services of each node, and is the same in every run."""
     assert graph_text(WHOLE) == (
         "/listener\n  subscribes /chatter  (std_msgs/String)\n"
         "/server\n  serves     /getGeometry  (course_pkg/geometry)\n"
@@ -146,7 +146,7 @@ class Wall:
 
 
 def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
-    """If only a hidden node changes, the graph is not drawn again."""
+    """If only a hidden node changes, the panel does not draw the graph again."""
     wall = Wall()
     wall.model.see(WHOLE)
     more = ServiceSeen("/server/set_logger_level", "roscpp/SetLoggerLevel", "/server", "x", "answered")
@@ -155,7 +155,7 @@ def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
 
 
 def test_a_choice_draws_again() -> None:
-    """If the student shows the hidden names, the graph is drawn again."""
+    """If the student shows the hidden names, the panel draws the graph again."""
     wall = Wall(own="/server")
     wall.model.see(WHOLE)
     wall.model.choose(noise=True, show_own=False)

@@ -118,7 +118,7 @@ def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
 def test_a_node_that_is_late_once_is_not_lost(
     panel: GraphPanel, pulse: NodeProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A node is reported as silent only if it does not respond to two requests in succession."""
+    """The panel reports a node as silent only if the node does not respond to two requests in succession."""
     seen = panel._model.snapshot
     assert seen is not None
     late = Snapshot(seen.master, tuple(replace(each, reach="silent") for each in seen.nodes), (), ())
@@ -177,7 +177,7 @@ def test_the_number_of_moments_is_limited() -> None:
 
 
 def test_the_size_of_a_recording_is_limited() -> None:
-    """If all drawings together are larger than the limit, the oldest drawings are removed."""
+    """If all drawings together are larger than the limit, the recording removes the oldest drawings."""
     kept = filled(*(shown(f"{turn:020000}") for turn in range(40)))
     state = kept.state(BEGAN + 40)
     assert len(json.dumps(state)) < 1.1 * BYTES

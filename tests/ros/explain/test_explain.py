@@ -153,7 +153,7 @@ def test_a_long_text_with_many_partial_matches(start: str) -> None:
 def test_an_explanation_in_a_notebook() -> None:
     """In a notebook, an explanation has three lines.
 
-    In HTML, text between backticks is code.
+    In the HTML of an explanation, a text between backticks is marked as code.
     """
     found = explain("ServiceException: service [/nope] unavailable")
     assert repr(found).splitlines() == [

@@ -50,7 +50,7 @@ def test_workspace_is_found_without_sourcing() -> None:
 
 @pytest.mark.parametrize("uri", ["localhost:11311", "http://localhost", "http://localhost:port", "nonsense"])
 def test_malformed_uri(uri: str) -> None:
-    """For a malformed ROS_MASTER_URI, join() raises an error with an example."""
+    """If ROS_MASTER_URI is malformed, join() raises an error with an example."""
     with Kernel({"ROS_MASTER_URI": uri}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MalformedMasterUri"
@@ -129,12 +129,12 @@ def test_another_name_in_the_same_kernel(kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("name", ["", "1st", "two words", "a/b"])
 def test_illegal_name(kernel: Kernel, name: str) -> None:
-    """For an invalid name, join() raises an error."""
+    """If the name of the node is invalid, join() raises an error."""
     assert kernel.ask(f"from course_pkg.ros import join\njoin({name!r})").error == "NotJoined"
 
 
 def test_join_on_another_thread_is_refused(kernel: Kernel) -> None:
-    """On another thread, join() raises an error, and a later join() on the main thread works."""
+    """join() raises an error on a second thread, and a later join() on the main thread works."""
     kernel.run("""
         import threading
         from course_pkg.errors import NotJoined
@@ -154,7 +154,7 @@ def test_join_on_another_thread_is_refused(kernel: Kernel) -> None:
 
 
 def test_private_master_killed() -> None:
-    """If the kernel's private master was killed, another join() starts a new master."""
+    """If the kernel's private master was killed, the next call of join() starts a new master."""
     with Kernel({"ROS_MASTER_URI": None}) as kernel:
         kernel.run(JOIN)
         uri = kernel.run("""
@@ -188,7 +188,7 @@ def test_private_master_killed() -> None:
 
 
 def test_shared_master_restarted() -> None:
-    """If a shared master was restarted, a second join() registers the services and topics again."""
+    """If a shared master was restarted, the next call of join() registers the services and topics again."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
@@ -203,7 +203,7 @@ def test_shared_master_restarted() -> None:
 
 
 def test_moving_to_another_master() -> None:
-    """If a shared master has ended, another join() starts a private master."""
+    """If a shared master has ended, the next call of join() starts a private master."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
@@ -326,7 +326,7 @@ rospy.spin()
 
 @pytest.mark.parametrize("how", ["rospy.signal_shutdown('test')", SPIN], ids=["signal_shutdown", "spin"])
 def test_node_that_was_shut_down_starts_again(kernel: Kernel, master: PrivateMaster, how: str) -> None:
-    """After a shutdown, the node's methods raise an error until another join()."""
+    """After a shutdown, the node's methods raise an error until join() is called again."""
     kernel.run(
         JOIN
         + """

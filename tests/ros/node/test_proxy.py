@@ -80,7 +80,7 @@ def listening(accept: bool = True) -> Iterator[int]:
 
 @contextmanager
 def registered(name: str, uri: str) -> Iterator[None]:
-    """Register the address `uri` for a service; no node offers this service."""
+    """Register an address for a service; no node offers this service."""
     master = MasterClient(os.environ["ROS_MASTER_URI"])
     master.register_service("/pretender", name, uri, "http://localhost:1/")
     yield
@@ -235,7 +235,7 @@ def test_an_action_is_repeated_until_it_is_disarmed() -> None:
 
 
 def _round(guard: Watchdog) -> None:
-    """Arm an action with the watchdog, and wait until the watchdog has run the action."""
+    """Give an action to the watchdog, and wait until the watchdog has run the action."""
     told = threading.Event()
     number = guard.arm(time.monotonic(), told.set)
     assert told.wait(5)
@@ -243,7 +243,7 @@ def _round(guard: Watchdog) -> None:
 
 
 def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The watchdog's thread ends when no action is armed; the next action starts a new thread."""
+    """The watchdog's thread ends when the watchdog has no action; the next action starts a new thread."""
     monkeypatch.setattr(watchdog, "LINGER", 0.05)
     before = set(watching())
     guard = Watchdog()

@@ -1,4 +1,4 @@
-"""Tests of rospy services on the node of join(), and of the requests that its call() accepts."""
+"""Tests of rospy services after join(), and of the requests that node.call() accepts."""
 
 from __future__ import annotations
 

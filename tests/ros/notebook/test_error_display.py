@@ -106,7 +106,7 @@ def test_error_while_handling_another(notebook: NotebookKernel) -> None:
 
 
 def test_error_in_a_handler(notebook: NotebookKernel) -> None:
-    """The error in the calling cell shows the line of the call and the failing line of the handler."""
+    """If a handler fails, the calling cell shows the failing line of the handler and the error message."""
     notebook.run(
         "def handle(request):\n    return 1 / 0\nservice = rospy.Service('/bad', Trigger, handle)", "bad"
     )
@@ -121,7 +121,7 @@ def test_error_in_a_handler(notebook: NotebookKernel) -> None:
 
 
 def test_error_in_a_callback_is_shown_once_below_a_cell(notebook: NotebookKernel) -> None:
-    """If a callback raises the same error several times while a cell runs, the error is shown once."""
+    """If a callback raises the same error several times while a cell runs, the cell shows the error once."""
     notebook.run(
         """
         called = []
@@ -153,7 +153,7 @@ def test_error_in_a_callback_is_shown_once_below_a_cell(notebook: NotebookKernel
     ["rospy.Timer(rospy.Duration(0.01), work, oneshot=True)", "threading.Thread(target=work).start()"],
 )
 def test_error_that_ends_a_thread(notebook: NotebookKernel, start: str) -> None:
-    """An error in a thread or a timer is shown in a few lines."""
+    """A notebook shows an error in a thread or a timer in a few lines."""
     notebook.run("def work(*_):\n    failed.set()\n    1 / 0\nfailed = threading.Event()")
     shown = notebook.run(f"{start}\nfailed.wait()\nrospy.sleep(0.2)")
     assert without_cell_numbers(shown.err.splitlines()) == [

@@ -78,7 +78,7 @@ def test_roslaunch_starts_a_master(notebook: NotebookKernel) -> None:
     ],
 )
 def test_unknown_name(notebook: NotebookKernel, line: str, error: str, words: str) -> None:
-    """For a misspelt name, the cell shows one error message."""
+    """If a name is misspelt, the cell shows one error message."""
     shown = notebook.run(line)
     assert shown.ename == error
     assert words in shown.evalue

@@ -38,12 +38,12 @@ def family(pid: int) -> list[int]:
 
 
 def gone(pids: list[int]) -> bool:
-    """Return whether all processes in `pids` have exited. A zombie counts as exited."""
+    """Return whether all given processes have exited. A zombie counts as exited."""
     return all(process_state(pid) == "Z" for pid in pids)
 
 
 def port_is_free(uri: str) -> bool:
-    """Return whether no process listens on the port of the address `uri`."""
+    """Return whether no process listens on the port of an address."""
     with socket.socket() as probe:
         return probe.connect_ex(("127.0.0.1", int(uri.rstrip("/").rpartition(":")[2]))) != 0
 
@@ -86,7 +86,7 @@ while True:
 
 
 def test_node_that_ignores_signals_on_a_shared_master(master: PrivateMaster) -> None:
-    """A node that ignores SIGTERM is killed and unregistered after the kernel that started it was killed."""
+    """After a kernel was killed, its nodes are killed and unregistered, even if they ignore SIGTERM."""
     kernel = Kernel()
     kernel.run(f"""
 import sys

@@ -18,7 +18,7 @@ from tests.support import eventually, stopped
 def test_it_answers_and_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The master responds inside the `with` block, and has exited after the block.
 
-    The master's log file is in ROS_LOG_DIR.
+    The master's log file is in the folder ROS_LOG_DIR.
     """
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     with PrivateMaster() as master:

@@ -27,7 +27,7 @@ pytestmark = pytest.mark.usefixtures("master")
     ],
 )
 def test_missing_program(package: str, program: str, message: str) -> None:
-    """For an unknown package or program, the error message contains similar names."""
+    """If a package or program is unknown, the error message contains similar names."""
     with pytest.raises(UnknownExecutable) as error:
         NodeProcess.rosrun(package, program)
     assert message in str(error.value)
@@ -184,7 +184,7 @@ def test_launch_file() -> None:
 
 
 def test_a_private_graph_is_separate(master: PrivateMaster) -> None:
-    """The nodes of a private graph are registered only at its own master."""
+    """The nodes of a private graph are registered only at the master of this graph."""
     with PrivateGraph() as graph:
         graph.run("course_pkg", "pulse")
         assert MasterClient(graph.uri).system_state().nodes == ("/pulse",)

@@ -24,7 +24,7 @@ rospy.loginfo("the battery is low")
 
 
 def processes(pids: list[int]) -> list[psutil.Process]:
-    """Return the processes in `pids` that run the node /rosout."""
+    """Return those of the given processes that run the node /rosout."""
     return [psutil.Process(pid) for pid in pids if psutil.Process(pid).name() == "rosout"]
 
 

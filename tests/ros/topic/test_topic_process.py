@@ -39,7 +39,7 @@ class Reports:
         self.process = TopicProcess(topic, self._report, self._lose)
 
     def published(self, part: str) -> Plain:
-        """Return the value with the name `part` from the latest report about the publisher."""
+        """Return a value from the latest report about the publisher; `part` is the name of the value."""
         return self.parts.get("publisher", {}).get(part)
 
     def _report(self, _process: TopicProcess, report: Report) -> None:
@@ -287,7 +287,7 @@ def test_a_publisher_ends_when_it_is_stopped_or_changed(reports: Reports, master
 
 
 def test_repeated_messages_until_stop(reports: Reports) -> None:
-    """After the command `repeat`, messages are published until the command `stop`."""
+    """After the command `repeat`, the process publishes messages until the command `stop`."""
     reports.process.tell("type", **NUMBER)
     reports.process.tell("plot", path="data")
     reports.process.tell("repeat", texts={"data": "4"}, latch=False, queue=10, rate=50.0)
@@ -302,7 +302,7 @@ def test_repeated_messages_until_stop(reports: Reports) -> None:
 
 
 def test_an_invalid_command_is_reported_and_the_process_continues(reports: Reports) -> None:
-    """An invalid command is reported, and the process continues."""
+    """The topic process reports an invalid command, and continues."""
     publish(reports, "1")
     assert "the topic has no type yet" in eventually(lambda: reports.published("problem"))
     reports.process.tell("type", **NUMBER)

@@ -90,7 +90,7 @@ def test_messages_are_counted_by_connection(pair: tuple[Kernel, Kernel]) -> None
 
 
 def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
-    """A publisher without subscribers is not listed as silent."""
+    """A poll does not list a publisher without subscribers as silent."""
     kernel.run(SPEAK + "\nfor number in range(3): speaker.publish('x')")
     seen = ActivityPoller().poll(look())
     assert [each for each in seen.traffic if each.topic == "/words"] == []
@@ -98,7 +98,7 @@ def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
 
 
 def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) -> None:
-    """If a connection's number of bytes is too large for XML-RPC, the node is listed as silent."""
+    """If a connection's number of bytes is too large for XML-RPC, the poll lists the node as silent."""
     speaker, _ = pair
     speaker.run("speaker.impl.connections[0].stat_bytes = 2**31")
     speaker.run("speaker.publish('x')")
@@ -106,7 +106,7 @@ def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) ->
 
 
 def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
-    """A node that is suspended with SIGSTOP is listed as silent."""
+    """A poll lists a node that is suspended with SIGSTOP as silent."""
     speaker, listener = pair
     snapshot = look()
     with stopped(speaker.pid):
@@ -190,7 +190,7 @@ def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
 
 
 def ask(master: PrivateMaster, *nodes: str) -> Callers:
-    """Return the callers that the nodes `nodes` report."""
+    """Return the callers that the given nodes report."""
     probes = [callers_probe(uri) for uri in MasterClient(master.uri).lookup_all(nodes, ())[0].values()]
     ask_all(probes, 0.5)
     return {name: callers for probe in probes for name, callers in answered_callers(probe).items()}

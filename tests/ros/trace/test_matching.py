@@ -120,7 +120,7 @@ def test_a_callback_of_an_unknown_message() -> None:
 
 
 def test_events_outside_of_the_recording() -> None:
-    """Events that lie before or after the recorded time are left out.
+    """match_events() omits events before or after the recorded time.
 
     If an event has not ended when the recording ends, its end is None.
     """
@@ -130,7 +130,7 @@ def test_events_outside_of_the_recording() -> None:
 
 
 def test_threads_of_one_name() -> None:
-    """If two threads of a node have the same name, a number is added to the second name."""
+    """If two threads of a node have the same name, match_events() adds a number to the second name."""
     spans = [span("callback", start, start + 1, transfers=[], thread=["/x", start]) for start in (1, 2)]
     assert [event.thread for event in events(spans)] == ["/x", "/x (2)"]
 

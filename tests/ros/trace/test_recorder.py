@@ -40,7 +40,7 @@ def test_an_end_counts_once() -> None:
 
 
 def test_long_error_messages_are_cut() -> None:
-    """Long error messages of handlers and callers are cut."""
+    """The recorder shortens long error messages of handlers and callers."""
     recorder = Recorder()
     recorder.end(recorder.begin("handler", "/x", "/caller", []), "x" * 10_000)
     call = recorder.begin_call("/x")

@@ -53,7 +53,7 @@ def recorded(asker: Kernel, cell: str) -> Recording:
 
 
 def kinds(recording: Recording, key: str) -> list[str]:
-    """Return the kinds of the events with the key `key`, in the order of their start times."""
+    """Return the kinds of the events with the given key, in the order of their start times."""
     return [event.kind for event in recording.parts(key)]
 
 
@@ -143,7 +143,7 @@ def test_a_refusal_is_recorded_at_both_ends(asker: Kernel) -> None:
 
 
 def test_a_service_that_does_not_exist(asker: Kernel) -> None:
-    """For a call to an unknown service, the recording contains a look-up and an error."""
+    """If the service of a call is unknown, the recording contains a look-up and an error."""
     recording = recorded(asker, "with node.record() as recording:\n    called('/nope', Trigger)")
     assert kinds(recording, "call 1") == ["lookup", "error"]
     assert (recording.events[1].peer, "unavailable" in recording.events[1].note) == ("", True)
@@ -195,7 +195,7 @@ def test_unfinished_events_are_open(asker: Kernel) -> None:
 
 
 def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
-    """When a client process exits, the client's events are sent to the recording."""
+    """When a client process exits, it sends its events to the recording."""
     recording = recorded(
         asker,
         """
@@ -216,7 +216,7 @@ def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
 
 
 def test_a_kernel_that_leaves_during_the_recording(asker: Kernel) -> None:
-    """When the kernel of another notebook calls leave(), the events of its node are sent to the recording."""
+    """When the kernel of another notebook calls leave(), it sends its node's events to the recording."""
     with Kernel() as other:
         other.run("from std_srvs.srv import Trigger; from course_pkg.ros import join; node = join('other')")
         asker.run("""
@@ -248,7 +248,7 @@ def test_a_server_that_died(asker: Kernel) -> None:
 
 
 def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
-    """A node that is suspended with SIGSTOP is listed as unrecorded, and causes only a short delay."""
+    """A recording lists a node that is suspended with SIGSTOP as unrecorded, after only a short delay."""
     reply = asker.ask("""
         import os, signal
         server = node.run("course_pkg", "pulse")
@@ -266,7 +266,7 @@ def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
 
 
 def test_a_node_without_the_course(asker: Kernel, master: PrivateMaster) -> None:
-    """A node without prepare_node() is listed as unrecorded."""
+    """A recording lists a node without prepare_node() as unrecorded."""
     with plain_node(master):
         recording = recorded(asker, "with node.record() as recording:\n    node.call('/plain', Trigger)")
     assert "keeps no record" in recording.unrecorded["/plain"]

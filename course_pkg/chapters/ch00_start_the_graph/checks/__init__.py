@@ -39,7 +39,7 @@ MISSED = "Return how many numbers were published between the two received number
     runs=["server"],
 )
 def read_the_graph(context: CheckContext) -> None:
-    """Compare the student's names of the node, the service and the type with the right names."""
+    """Compare the names that the student found for the node, the service and the type with the right ones."""
     with context.goal(NODE):
         context.expect(
             "the name of the node",
@@ -161,7 +161,7 @@ def read_the_graph(context: CheckContext) -> None:
 def ask_a_question(context: CheckContext) -> None:
     """Respond with random volumes; the student's function can know a volume only from the response.
 
-    The second call has the same sides as the first call, but the response contains a new volume.
+    The second request contains the same sides as the first request, but its response contains a new volume.
     """
     for _ in range(2):
         name = f"/{context.random.word()}"
@@ -286,7 +286,7 @@ def _no_volume(area: float, volume: float, sides: Sequence[float]) -> Hints:
     runs=["server"],
 )
 def count_what_was_missed(context: CheckContext) -> None:
-    """Run the student's function twice, with different pauses.
+    """Run the student's function twice: first with a short pause, and then with a long pause.
 
     In each run, the check publishes consecutive numbers on a new topic.
     """
@@ -327,8 +327,8 @@ def count_what_was_missed(context: CheckContext) -> None:
                 "for `pause` seconds with `time.sleep`."
             ),
         )
-        # A number is received only if the publisher has a subscriber. The subscriber may connect just after
-        # the publisher counted its subscribers.
+        # A subscriber receives a number only if it is connected to the publisher. The subscriber may connect
+        # just after the publisher has counted its subscribers, so accept one number before the connection.
         subscribers = publisher.subscribers
         for place in (before - first, after - first):
             if not any(subscribers[place : place + 2]):
@@ -342,7 +342,8 @@ def count_what_was_missed(context: CheckContext) -> None:
                     ),
                 )
         unheard = subscribers[before - first : after - first].count(0)
-        # On a busy machine, an unsubscribed subscriber may be counted for a part of the short pause.
+        # On a busy machine, the publisher may count a subscriber for some time after the subscriber has
+        # unsubscribed.
         if unheard < (1 if shortest < 1 else (after - before) / 2):
             context.fail(
                 "the second number is received after the pause",

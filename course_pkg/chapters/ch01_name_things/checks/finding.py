@@ -28,7 +28,7 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
     goals={FOUND: 2, "Return None if there is no such service.": 1},
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
-    """Serve a service with a random name, and other services with similar names, in three runs.
+    """Offer a service with a random name, and other services with similar names, in three runs.
 
     The namespace of the service has a different depth in each run. Later, call the student's function with
     the name of a service that does not exist.
@@ -121,7 +121,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
 
 
 def _is_sent(context: CheckContext, server: ScriptedServer, sides: list[float]) -> None:
-    """Assert that the first request contains `sides`."""
+    """Assert that the first request contains the sides `sides`."""
     context.expect(
         "the request has length, width and height",
         expected=dict(zip(("length", "width", "height"), sides, strict=True)),

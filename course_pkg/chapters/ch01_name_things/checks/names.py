@@ -73,7 +73,7 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
     runs=["simulator"],
 )
 def a_viewer_for_each_arm(context: CheckContext) -> None:
-    """Run the student's commands for two arms, and compare the names of started nodes and their topics."""
+    """Run the student's commands for two arms, and check the names of the nodes and of their topics."""
     with ExitStack() as running:
         for arm in (context.random.word() for _ in range(2)):
             before = {node.name for node in context.look().nodes}
@@ -123,7 +123,7 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
     """Assert that the service and the node of the room `room` have the right names.
 
-    `before` contains the addresses of the earlier services.
+    `before` contains the addresses of the services that existed before the server was started.
     """
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
     deadline, service = time.monotonic() + START, None
@@ -162,7 +162,10 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
 
 
 def _astray(room: str, found: str, node: str) -> str:
-    """Return the hint for the wrong name `found` of a service of `node`; the right name is /ROOM/measure."""
+    """Return the hint for a service with the wrong name `found`; the right name is /ROOM/measure.
+
+    `node` is the name of the service's node.
+    """
     if found == "/measure" and node.startswith(f"/{room}/"):
         return (
             "The node is in the namespace of the room, but the service is /measure for every room. Put the "
@@ -197,7 +200,7 @@ def _astray(room: str, found: str, node: str) -> str:
 def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:
     """Assert that the started node and its topics have the right names for the arm `arm`.
 
-    `before` contains the names of the earlier nodes.
+    `before` contains the names of the nodes that existed before the command was run.
     """
     name, seen = _viewer(context, viewer, before)
     with context.goal(VIEWER):
@@ -274,7 +277,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
 
 
 def _require_own_topics(context: CheckContext, viewer: Running, name: str, seen: Snapshot) -> None:
-    """Assert that the program of the command has the topics with which the master lists the node `name`.
+    """Assert that the student's program reports the topics that the master lists for the node `name`.
 
     The master stores what any program registers, so the check also requests the topics from the program.
     """
@@ -298,7 +301,7 @@ def _require_own_topics(context: CheckContext, viewer: Running, name: str, seen:
 
 
 def _viewer(context: CheckContext, viewer: Running, before: set[str]) -> tuple[str, Snapshot]:
-    """Wait for a new node with a subscription; return its name or "", and the last snapshot of the graph."""
+    """Wait for a new node with a subscription; return its name (or "") and the last snapshot of the graph."""
     deadline = time.monotonic() + START
     while True:
         seen = context.look()

@@ -27,7 +27,7 @@ SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy ma
 # In addition to the time for publishing the numbers, the student's function may take at most this many s. A
 # function that always sleeps for 2 s takes longer.
 TOO_LONG = 1.9
-AT_ONCE = 0.3  # Half of several calls may take at most this time in s.
+AT_ONCE = 0.3  # AT_ONCE is the maximum median duration of several calls in s.
 TOO_SOON = "The wait for a subscriber is too short. If there is no subscriber, wait for the full 2 s."
 TOO_EARLY = (
     "The first number was published before a subscriber was connected. Create the publisher, "
@@ -98,7 +98,7 @@ def count_aloud(context: CheckContext) -> None:
 
 
 def _counts_alone(context: CheckContext, topic: str) -> None:
-    """Start the student's function without a subscriber; subscribe when the function must already publish."""
+    """Start the student's function without a subscriber; subscribe after its wait of 2 s is over."""
     late: list[Subscription] = []
     hertz = context.random.integer(15, 25)
     count = round(hertz * context.random.number(1.05, 1.15))
@@ -212,8 +212,8 @@ def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
 def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> None:
     """Assert that the average rate is right, and that the messages arrive at equal intervals."""
     seen = rate(arrivals)
-    # On a busy machine, each pause takes longer, so the rate may be lower. The limit stays above half of the
-    # required rate: a program with two pauses for each number publishes at half of this rate.
+    # On a busy machine, each pause takes longer, so the rate may be lower. The limit is above half of the
+    # required rate, because a wrong program with two pauses for each number publishes at half of this rate.
     lowest = max(0.75 / at_this_load(1.0), 0.55)
     context.require(
         "the average rate is the given rate",
@@ -252,7 +252,7 @@ def a_notice(context: CheckContext) -> None:
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
     earlier, first, third = context.random.numbers(3, 1.0, 90.0)
-    second = math.nextafter(first, 100.0)  # The smallest difference also counts as a change.
+    second = math.nextafter(first, 100.0)  # Even the smallest difference counts as a change of the value.
     for name in (zero, topic, twin):
         context.run("create", Its("Notice"), name, worded="Notice(topic)").returned()
     took = [_set(context, *each) for each in ((zero, 0.0), (topic, earlier), (topic, first), (twin, first))]
@@ -310,7 +310,7 @@ def _set(context: CheckContext, topic: str, value: float) -> float:
 
 
 def _subscribed(context: CheckContext, topic: str) -> Subscription:
-    """Subscribe to `topic`; a latched publisher then sends its last message immediately."""
+    """Subscribe to the topic `topic`; a latched publisher then sends its last message immediately."""
     subscription = context.subscribe(topic, "std_msgs/Float64")
     hint = "Create a rospy.Publisher for the given topic, and do not unregister this publisher."
     subscription.published(hints=[(matches("no publisher"), hint)])

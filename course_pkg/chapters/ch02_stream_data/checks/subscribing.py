@@ -81,7 +81,7 @@ NEVER_RETURNS = (
 
 
 class Work:
-    """A replacement for draw() or prepare() that sleeps for `pause` s.
+    """A replacement for draw() or prepare() that only sleeps; `pause` is the duration in s.
 
     The object records the beginning of each call, and the maximum number of simultaneous calls.
     """
@@ -95,7 +95,7 @@ class Work:
 
     @remote
     def __call__(self, value: Value) -> None:
-        """Record the call, and sleep for `pause` s."""
+        """Record the call, and sleep for the duration `pause` (s)."""
         with self._lock:
             self._busy += 1
             self.at_once = max(self.at_once, self._busy)
@@ -190,7 +190,7 @@ def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[J
 
 
 def _stances(context: CheckContext, count: int) -> list[Fields]:
-    """Return `count` messages.
+    """Return a list of `count` joint states.
 
     The joint states in the second half have fewer joints. If the student's node stores values of earlier
     joint states, its messages are then wrong. One joint state has no velocities.
@@ -227,7 +227,7 @@ def _of_both_signs(context: CheckContext, count: int) -> list[float]:
 def _begun(
     context: CheckContext, start: str, *args: object, worded: str, topics: Sequence[str]
 ) -> Iterator[None]:
-    """Call the student's function, which returns its subscribers; after the block, unregister them."""
+    """Call the student's function, which returns its subscribers; unregister them after the `with` block."""
     context.prepare(KEEPER)
     try:
         started = context.run(

@@ -139,11 +139,11 @@ def _says(
     pause: float = 0.0,
     before: float = float("inf"),
 ) -> None:
-    """Call state() `times` times, and assert that each call returns `word`.
+    """Call state(), once or several times (`times`), and assert that each call returns `word`.
 
-    After each call, the check waits `pause` s. `before` is a time as returned by time.monotonic(). If a call
-    ends later, the check accepts any of the three states. If there are several calls, at least one must be
-    fast; the other calls may be slow, because the machine may be busy.
+    After each call, the check waits `pause` s. `before` is a deadline (s, time.monotonic()). If a call ends
+    after this deadline, the check accepts any of the three states. If there are several calls, at least one
+    must be fast; the other calls may be slow, because the machine may be busy.
     """
     took = []
     for _ in range(times):

@@ -72,7 +72,7 @@ HOLLOW: Mapping[str, str] = {
     needs=["decisions"],
 )
 def decide_and_defend(context: CheckContext) -> None:
-    """For each task, compare the chosen design, and then the chosen reason, with the right ones."""
+    """Compare, for each task, the chosen design and then the chosen reason with the right ones."""
     decisions = context.read("decisions")
     context.require(
         "there is a decision for each job",

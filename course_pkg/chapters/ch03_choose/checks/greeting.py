@@ -39,7 +39,7 @@ def begin(start, *topics):
 def end():
     for name, names in ear.names.items():
         names[name] = ear.say
-"""  # This code records the calls of say_good_day(): the topic does not show whether two calls overlap.
+"""  # This code records each call of say_good_day(); the topic does not show whether two calls overlap.
 MIXED_UP = (
     "Your function publishes on `customers`, which is the wrong topic. Subscribe to `customers`, "
     "and publish on `greetings`."
@@ -192,7 +192,7 @@ def _starts_again(context: CheckContext, number: int) -> None:
 
 
 def _told(context: CheckContext, topic: str, numbers: list[int]) -> float:
-    """Publish `numbers` at 50 messages per second.
+    """Publish the numbers in `numbers` at 50 messages per second.
 
     Return the time of the first message (s, time.monotonic()).
     """
@@ -217,7 +217,7 @@ def _greeted(
 ) -> None:
     """Assert that each customer in `numbers` was greeted once, in the right order."""
     subscription.until(lambda arrivals: set(numbers) <= {each.fields["data"] for each in arrivals}, 8.0)
-    # A wrong second greeting of a customer would arrive within this time.
+    # A wrong second greeting of a customer would arrive within this time in s.
     subscription.during(2 * GREETING + 0.2)
     seen = [each.fields["data"] for each in subscription.arrivals]
     said = [*greetings.said]

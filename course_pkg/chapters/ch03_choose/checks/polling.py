@@ -32,7 +32,8 @@ COUNTED = (
 class Counter:
     """A detector with one customer.
 
-    The customer comes `after` s after this object is created. Each response is delayed by `slow` s.
+    `after` is the time in s from the creation of this object until the customer comes. `slow` is the delay of
+    each response in s.
     """
 
     number: int

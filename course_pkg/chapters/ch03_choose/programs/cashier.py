@@ -1,10 +1,11 @@
-"""The node `cashier`: greets every customer once, with one of three designs.
+"""The node `cashier` greets every customer once, with one of three designs.
 
-The parameter `~design` is `poll`, `topic` or `wait`. With `poll`, the node calls `detect_customer` `~rate`
-times per second, and calls again immediately after each new customer. With `topic`, the node subscribes to
-`customers`. With `wait`, the node also calls `detect_customer`, but the server waits up to `~patience` s for
-a customer before it responds. The node publishes the number of each greeted customer on `greetings`
-(std_msgs/UInt32), and serves `~report` (course_pkg/CashierReport).
+The parameter `~design` is `poll`, `topic` or `wait`. With `poll`, the node calls the service
+`detect_customer` at the rate `~rate` (in Hz), and also immediately after each new customer. With `topic`, the
+node subscribes to the topic `customers`. With `wait`, the node also calls the service `detect_customer`, but
+the server waits for a customer before it responds; `~patience` is the maximum waiting time in s. The node
+publishes the number of each greeted customer on the topic `greetings` (std_msgs/UInt32), and offers the
+service `~report` (course_pkg/CashierReport).
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ class Cashier:
     def run_client(self, patience: float, pause: float) -> None:
         """Call the detector and greet new customers until the node is shut down.
 
-        A series of calls begins every `pause` s, and ends when there is no new customer.
+        Every `pause` s, the node begins a series of calls. The series ends when there is no new customer.
         """
         self.offer_report()
         due = time.monotonic()
@@ -130,7 +131,8 @@ def main() -> None:
         elif design == "poll":
             cashier.run_client(patience=0.0, pause=1 / rate)
         else:
-            # The server itself waits up to `patience` s for a customer, so no additional pause is needed.
+            # While it handles a call, the server waits up to `patience` s for a customer, so no additional
+            # pause is needed.
             cashier.run_client(patience=patience, pause=patience)
     except rospy.ROSInterruptException:  # The node was shut down during a sleep.
         return

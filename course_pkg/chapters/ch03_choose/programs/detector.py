@@ -1,8 +1,8 @@
-"""The node `detector`: finds new customers in the messages on `counter`, which a camera publishes.
+"""The node `detector`: finds new customers in the messages on the topic `counter`, which a camera publishes.
 
-The node publishes the number of each customer once on `customers` (std_msgs/UInt32). The node also serves
-`detect_customer` (course_pkg/DetectCustomer). A call waits for a customer; the request contains the maximum
-waiting time.
+The node publishes the number of each customer once on the topic `customers` (std_msgs/UInt32). The node also
+offers the service `detect_customer` (course_pkg/DetectCustomer). A call waits for a customer; the request
+contains the maximum waiting time.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """The node `shop_camera`: a shop with a counter and a camera that observes the counter.
 
-The node publishes the numbers of the present customers on `counter` (std_msgs/UInt32MultiArray), at each
-change and ten times per second. The node also serves `let_in` (course_pkg/LetIn). If `~every` is above 0,
-additional random customers come: on average, one customer every `~every` s.
+The node publishes the numbers of the present customers on the topic `counter` (std_msgs/UInt32MultiArray), at
+each change and ten times per second. The node also offers the service `let_in` (course_pkg/LetIn). If
+`~every` is above 0, additional customers come at random times; `~every` is the average time in s between two
+of them.
 """
 
 from __future__ import annotations

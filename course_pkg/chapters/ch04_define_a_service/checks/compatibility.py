@@ -161,7 +161,7 @@ def _pairs(context: CheckContext) -> list[Pair]:
 
 
 def _name(context: CheckContext) -> str:
-    """Return a random name of a field; its length and its characters differ from name to name."""
+    """Return a random name for a field; the names have different lengths and different characters."""
     return context.random.word(context.random.integer(5, 9)) + context.random.choice(["", "", "_2", "_x"])
 
 
@@ -170,5 +170,5 @@ def _text(top: list[str], above: list[str], below: list[str]) -> str:
 
 
 def _slip(name: str) -> str:
-    """Return `name` with a different last letter."""
+    """Return the name `name` with a different last letter."""
     return name[:-1] + ("a" if name[-1] != "a" else "b")

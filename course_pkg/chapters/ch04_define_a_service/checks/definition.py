@@ -1,4 +1,4 @@
-"""The check of Lamp.srv: it parses the file in the same way as ROS, compares each field, and builds it."""
+"""The check of Lamp.srv: it parses the file in the same way as ROS, compares the fields, and builds it."""
 
 from __future__ import annotations
 
@@ -180,7 +180,7 @@ def _about_constants(wanted: list[str], found: list[str], below: list[str], text
 
 
 def _line(text: str, name: str) -> str:
-    """Return a prefix with the number of the line that declares `name`, or "" if no line declares it."""
+    """Return "Line N: " with the number of the line that declares `name`, or "" if no line declares it."""
     for line in lines(text):
         if any(word.text.partition("=")[0] == name for word in line.words()[1:]):
             return f"Line {line.number}: "

@@ -100,7 +100,7 @@ def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
 
 
 def md5_in(context: CheckContext, folder: Folder) -> tuple[str, str]:
-    """Return the MD5 sum of the type that was built in `folder`, and the output of a failed import.
+    """Return the MD5 sum of the type that was built in this folder, and the output of a failed import.
 
     If the import succeeds, the output is ""; if the import fails, the MD5 sum is "". The type must also
     serialise a random request, so that an object that has only the right MD5 sum is not enough.
@@ -122,7 +122,7 @@ def md5_in(context: CheckContext, folder: Folder) -> tuple[str, str]:
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
-    """Return a copy of the fault `fault` with the student's file as the wrong file.
+    """Return a copy of `fault` in which the faulty file is the student's file.
 
     The check's own files are correct, so the mistake is in the student's file.
     """

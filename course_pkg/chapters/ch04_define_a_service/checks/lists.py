@@ -8,7 +8,8 @@ from course_pkg.workspace.cmake_messages import cmake_commands
 
 FILE = f"{PACKAGE}/CMakeLists.txt"
 CONFIGURATION = "devel/share/lamp_services/cmake/lamp_servicesConfig.cmake"
-GENERATED_LINE = "lamp_services_FOUND_CATKIN_PROJECT TRUE"  # catkin_package writes this text into the file.
+# catkin_package writes this text into the file CONFIGURATION.
+GENERATED_LINE = "lamp_services_FOUND_CATKIN_PROJECT TRUE"
 
 START = f"""%%writefile {FILE}
 cmake_minimum_required(VERSION 3.10)

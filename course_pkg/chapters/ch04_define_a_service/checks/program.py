@@ -123,7 +123,7 @@ def _run_bit(context: CheckContext, folder: Folder) -> None:
 
 
 def _serves(context: CheckContext, running: Running, name: str, node: str) -> None:
-    """Wait until the program serves the service `name`; if it does not do so in time, report the reason."""
+    """Wait until the program offers the service `name`; if this takes too long, report the reason."""
     deadline = time.monotonic() + STARTING
     while context.look().service(name) is None:
         if running.status is not None or time.monotonic() > deadline:

@@ -18,7 +18,8 @@ FILE = "arm.py"
 MOVE, MAINTENANCE = "/move_arm", "/maintenance"
 STARTS = 8.0  # The program must offer both services within this many s; it takes 0.5 s on an idle machine.
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
-IMPORTED = 77  # The import command has this exit status, unless the imported file ends the process itself.
+# A process that imports the file ends with this exit status, unless the file ends the process earlier.
+IMPORTED = 77
 IMPORT = f"import arm; raise SystemExit({IMPORTED})"
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3

@@ -34,7 +34,7 @@ NAMED = "Write the name and the value of the side in the error message."
     goals=[AREA, VOLUME],
 )
 def area_and_volume(context: CheckContext) -> None:
-    """Send boxes of several sizes; in each box but one, the three sides are different."""
+    """Send boxes of several sizes; in all boxes except one, the three sides are different."""
     get_geometry = context.service("/getGeometry", "course_pkg/geometry")
     require_served_by_notebook(context, "/getGeometry")
     for length, width, height in random_boxes(context):
@@ -207,8 +207,9 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 
 
 def _unclear(named: list[str], numbers: list[float], side: str, value: float, reason: str) -> str:
-    """Return the hint for a wrong error message; a right message names only the side `side` and its `value`.
+    """Return the hint for a wrong error message.
 
+    The right message contains the negative side's name `side` and its `value`, but no other side's name.
     `named` contains the sides in the error message, and `numbers` contains the numbers in this message.
     """
     if len(numbers) > MANY:

@@ -188,7 +188,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
 
 
 def _starts_from_zero(context: CheckContext) -> None:
-    """While the count of /count is not 0, call a new Counter() once; the result must be 1.
+    """While the count of /count is not 0, create a new Counter(), and assert that its first call returns 1.
 
     If the student has no class Counter, nothing is tested.
     """

@@ -56,7 +56,7 @@ def the_geometry_client(context: CheckContext) -> None:
 def _is_called_once(
     context: CheckContext, requests: Sequence[Fields], sides: Sequence[float], *, repeated: bool
 ) -> None:
-    """Assert that one call of measure() sent one request, and that this request contains `sides`.
+    """Assert that one call of measure() sent one request, and that this request contains these sides.
 
     `repeated` is True if the previous call of measure() had the same sides.
     """

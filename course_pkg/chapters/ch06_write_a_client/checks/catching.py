@@ -46,7 +46,7 @@ CAUGHT = "Return None if the call failed."
     goals={VOLUME: 1, CAUGHT: 2, "Do not catch exceptions that are caused by wrong arguments.": 1},
 )
 def catch_what_can_happen(context: CheckContext) -> None:
-    """Call the student's function with two working services, four failing services, and wrong arguments."""
+    """Call the student's function with working services, with failing services, and with wrong arguments."""
     good, flat = (f"/{context.random.word()}" for _ in range(2))
     sides = context.random.numbers(3, 0.5, 9.0)
     (volume,) = volumes(context, 1)
@@ -195,7 +195,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 
 
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
-    """Return the failures.
+    """Return the failures of a call that the student's function must handle.
 
     Each tuple contains the name of the failure, the name of the service, and the server or None.
     """

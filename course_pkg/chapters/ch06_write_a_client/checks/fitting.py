@@ -19,11 +19,12 @@ from course_pkg.waiting import at_this_load, wait_until
 FILE = "fits.py"
 # All runs start at the same time and may take this many s; a program waits at most 2 s for the service.
 RUNS = 9.0
-# A program may wait this many s for a missing service: 2 s, and the time to end.
+# A program may wait at most this many s for a missing service: 2 s, plus the time that it needs to end.
 WAITS = 4.0
 LATE = 0.5  # The service starts this many s after the first snapshot that contains the node.
 POLL = 0.2  # The check tests every POLL s whether the runs have ended.
-IMPORTED = 77  # The import command has this exit status, unless the imported file ends the process itself.
+# A process that imports the file ends with this exit status, unless the file ends the process earlier.
+IMPORTED = 77
 IMPORT = f"import sys; sys.argv = ['fits.py']; import fits; sys.exit({IMPORTED})"
 USAGE = "usage"
 ENDED_WITH_TEXT = (
@@ -51,7 +52,8 @@ class Case:
     # itself runs in another namespace.
     remapped: bool = False
     late: bool = False  # `late` is True if the service starts after the program.
-    ends: str = ""  # `ends` is a goal; the student has reached it if this run and all earlier runs are right.
+    # `ends` is a goal, or "". The student has reached this goal if this run and all earlier runs are right.
+    ends: str = ""
 
 
 COMPARED = "Call getGeometry, and print whether the volume is at most LIMIT."
@@ -99,7 +101,8 @@ def does_it_fit(context: CheckContext) -> None:
         running = [imported, *(each.run for each in started)]
 
         def ended() -> bool:
-            for each in reversed(started):  # The last run needs its service in time.
+            # The last run has a service that must start in time, so watch this run first.
+            for each in reversed(started):
                 each.watch()
             return all(run.status is not None for run in running)
 
@@ -206,7 +209,7 @@ def _cases(context: CheckContext) -> list[Case]:
 
 
 class Started:
-    """One run of the student's program, which must call the service getGeometry in `namespace`."""
+    """One run of the student's program, which must call getGeometry in the namespace `namespace`."""
 
     def __init__(self, context: CheckContext, folder: Folder, case: Case, namespace: str) -> None:
         self.case = case

@@ -15,7 +15,7 @@ KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "next"
 # A service that does not respond may delay the result by at most this many s; a correct function waits 1 s
 # for it.
 LONGEST = 1.75
-# If a service does not respond, the next service must not be called earlier than after this many s.
+# If a service does not respond, the next service must not be called before this many s have passed.
 SHORTEST = 0.9
 FIRST = "If the first service responds, return the volume in its response."
 NEXT = (
@@ -203,7 +203,7 @@ def ask_the_next_one(context: CheckContext) -> None:
 
 
 def _noted(times: list[float], act: Act) -> Script:
-    """Return a script that stores the time of each request in `times`, and returns `act`."""
+    """Return a script that stores the time of each request in the list `times`, and then returns `act`."""
 
     def script(_: Message) -> Act:
         times.append(time.monotonic())
@@ -220,7 +220,7 @@ def _longest_pause(earlier: Sequence[float], later: Sequence[float]) -> float:
 
 
 def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: Mapping[str, float]) -> None:
-    """Use lists with and without a working service in a random order; fixed results are then wrong."""
+    """Use lists with and without a working service in a random order; a function with fixed results fails."""
     used = [*context.random.shuffled(list(works))[:2], *[""] * context.random.integer(1, 3)]
     for working in context.random.shuffled(used):
         failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]
@@ -257,7 +257,7 @@ _ERRORS: Hints = [
 
 
 def _first_of(context: CheckContext, names: Mapping[str, str], *kinds: str, hints: Hints = ()) -> Result:
-    """Run the student's function with a list of services; `kinds` contains the kind of each service."""
+    """Call the student's function with one service of each kind in `kinds`, such as "first"."""
     sides = context.random.numbers(3, 0.5, 9.0)
     services = [names[kind] for kind in kinds]
     return context.run("first_answer", services, *sides, within=3.0 + len(services), hints=hints or _ERRORS)

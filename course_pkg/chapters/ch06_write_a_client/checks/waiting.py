@@ -66,7 +66,7 @@ def is_anybody_there(context: CheckContext) -> None:
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
-        ).returned(),  # Calls for a missing service have the same time limit.
+        ).returned(),  # In calls for a missing service, the time limit is the same.
         hints=[
             (
                 False,
@@ -88,7 +88,8 @@ def is_anybody_there(context: CheckContext) -> None:
         "wait_for_service, which also tries to connect to the server.",
     )
     context.fulfilled(THERE)
-    # The service starts `starts` s after the beginning of the call. The call has a time limit of `limit` s.
+    # `starts` is the time in s from the beginning of the call to the start of the service. `limit` is the
+    # time limit of the call in s.
     starts = context.random.number(1.1, 1.4, digits=1)
     limit = context.random.number(3.2, 4.2, digits=1)
     started = [server]

@@ -15,7 +15,7 @@ from course_pkg.ros.node.preparation import prepare_node
 
 
 def main() -> None:
-    """Serve `dying` until the first call ends the process."""
+    """Offer the service `dying` until the first call ends the process."""
     rospy.init_node("dying_server")
     prepare_node()
     rospy.Service("dying", Trigger, _die)

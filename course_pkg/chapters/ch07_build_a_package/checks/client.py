@@ -21,12 +21,13 @@ CLIENT = Program("scripts/client.py")
 FILE = MY_GEOMETRY.path(CLIENT.file)
 SERVICE = "/getGeometry"
 USAGE = re.compile("^usage:", re.MULTILINE)
-WAITED = re.compile("waiting for service|unavailable")  # rospy's error messages for a missing service
+# The pattern matches rospy's error messages for a missing service.
+WAITED = re.compile("waiting for service|unavailable")
 # A run of the client may take this many s: rospy needs 0.5 s to start (5 s on a busy machine), and the client
 # waits up to 5 s.
 WITHIN = 16.0
-# Without a server, the client has to end within WAITING s and SLOWER times the time of its fastest run with
-# wrong arguments, which shows how long a start takes now.
+# Without a server, the client has to end within WAITING s plus SLOWER times the duration of its fastest run
+# with wrong arguments. This duration shows how long a start takes on this machine now.
 WAITING, SLOWER = 7.0, 1.5
 
 START = f"""%%writefile {FILE}
@@ -239,7 +240,7 @@ def _run(package: BuiltPackage, arguments: list[str]) -> Finished:
 
 
 def _printed(done: Finished, name: str) -> float | None:
-    """Return the number in the output line that begins with `name`, such as "area: 6.24", or None."""
+    """Return the number in an output line such as "area: 6.24", or None; `name` is the line's first word."""
     found = re.search(rf"(?m)^\s*{name}:\s*(-?\d+\.\d\d)\s*$", done.out)
     return float(found[1]) if found else None
 

@@ -54,8 +54,8 @@ def the_install_rules(context: CheckContext) -> None:
 
 
 def _installs(context: CheckContext, package: BuiltPackage) -> None:
-    # catkin_make has run CMake before, so that now, `make install` does the same as `catkin_make install`.
-    # Files in the folder `install` that were copied without an install rule are deleted first.
+    # catkin_make has already run CMake, so `make install` now does the same as `catkin_make install`. Files
+    # in the folder `install` that were copied without an install rule are deleted first.
     line = f"{LIMITS}; rm -rf install; exec make -C build install"
     done = package.folder.command("bash", "-c", line, within=INSTALLING, worded="catkin_make install")
     problem = re.search(r"cannot find\s+\"(?:\S*/src/)?([^\"]*)\"", done.out + done.err)

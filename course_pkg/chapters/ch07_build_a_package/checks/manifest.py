@@ -9,7 +9,7 @@ from course_pkg.workspace.fault import dependencies, manifest_tags
 
 NAME = "package.xml"
 FILE = MY_GEOMETRY.path(NAME)
-GENERATED = {  # For each tag, this dict contains the text that catkin_create_pkg generates, and a hint.
+GENERATED = {  # For each XML tag, this dict contains the text that catkin_create_pkg generates, and a hint.
     "description": ("The my_geometry package", "Describe in one sentence what the package does."),
     "license": ("TODO", "Write the name of a licence, for example MIT or BSD."),
 }
@@ -93,9 +93,9 @@ def the_manifest(context: CheckContext) -> None:
 
 
 def _texts(text: str) -> dict[str, str]:
-    """Return the description, licences and addresses as catkin reads them; an empty dict if it cannot.
+    """Return the description, licences and addresses as catkin reads them, or {} if catkin cannot read them.
 
-    Because catkin's own parser reads them, a generated text is found in every notation of XML.
+    catkin's own parser reads the file, so the result is right for every notation of XML.
     """
     # The import takes 50 ms, so it is inside the function.
     from catkin_pkg.package import InvalidPackage, parse_package_string

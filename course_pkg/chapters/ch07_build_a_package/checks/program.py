@@ -41,7 +41,8 @@ sys.modules[spec.name] = module  # dataclasses looks up the module there
 spec.loader.exec_module(module)
 sys.exit(77)
 """
-IMPORTED = 77  # The import command has this exit status, unless the imported file ends the process itself.
+# A process that imports the script ends with this exit status, unless the script ends the process earlier.
+IMPORTED = 77
 ENDINGS = (  # Each entry contains a pattern for the program's output, and a hint.
     (r"rospy\.init_node\(\) first", "A service needs a node. Call rospy.init_node before rospy.Service."),
     (
@@ -143,7 +144,7 @@ def _never_ends(done: Finished) -> bool:
 def serves(
     context: CheckContext, running: Running, package: BuiltPackage, program: Program, name: str, node: str
 ) -> None:
-    """Wait until the node `node` serves `name`; if it does not do so in time, report the reason."""
+    """Wait until the node `node` offers the service `name`; if this takes too long, report the reason."""
     assertion = f"rosrun starts it, and it serves {program.service}"
     deadline = time.monotonic() + STARTING
     while (found := context.look().service(name)) is None:

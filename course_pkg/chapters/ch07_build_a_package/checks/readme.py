@@ -13,7 +13,8 @@ from course_pkg.workspace.fault import without_comments
 
 FILE = MY_GEOMETRY.path("README.md")
 BLOCK = re.compile(r"^[ \t]*(?:```|~~~)[^\n`]*\n(.*?)^[ \t]*(?:```|~~~)", re.DOTALL | re.MULTILINE)
-PRINTED = re.compile(r"#|:\s|(?:echo|printf|true)\b")  # The shell executes no command in these lines.
+# The shell executes no command in lines that match this pattern.
+PRINTED = re.compile(r"#|:\s|(?:echo|printf|true)\b")
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)"
 FIELD = rf"\w+: *{NUMBER}"
 CALL = re.compile(
@@ -51,7 +52,7 @@ COMMANDS = (  # Each entry contains the pattern, the name and the hint of a requ
     needs=[f"file:{FILE}"],
 )
 def the_readme(context: CheckContext) -> None:
-    """Read the title and the commands, and compare the order of the commands."""
+    """Read the title and the commands, and check the order of the commands."""
     text = context.source(f"file:{FILE}")
     first = text.strip().partition("\n")[0]
     context.require(
@@ -97,7 +98,7 @@ def the_readme(context: CheckContext) -> None:
 
 
 def _place(context: CheckContext, commands: str, pattern: str, name: str, hint: str) -> int:
-    """Assert that `commands` contains the command `name`; return the position of its first occurrence."""
+    """Assert that the README contains the command `name`; return the position of its first occurrence."""
     found = re.search(pattern, commands)
     context.require(
         f"it contains {name}",

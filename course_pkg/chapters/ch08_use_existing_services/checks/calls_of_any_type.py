@@ -78,7 +78,7 @@ CALLED = "Call services of three types, and return the fields of the response."
     goals={CALLED: 2, "Raise an error for an unknown field. Return the whole response.": 1},
 )
 def call_of_any_type(context: CheckContext) -> None:
-    """Call services of three types, change the type of a service, and call with an unknown field."""
+    """Call services of three types, change the type of a service, and make a call with an unknown field."""
     for example in example_calls(context):
         _calls(context, example)
     context.fulfilled(CALLED)

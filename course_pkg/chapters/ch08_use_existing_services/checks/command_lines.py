@@ -121,7 +121,7 @@ def line_for_a_terminal(context: CheckContext) -> None:
 
 
 def _is_call(line: Json) -> bool:
-    """Return whether the line runs `rosservice call`; echo or printf can supply the fields through a pipe."""
+    """Return whether the line runs `rosservice call`; a pipe from echo or printf may supply the fields."""
     *before, last = commands_of(line) or [[]]
     return last[:2] == ["rosservice", "call"] and all(words[:1] in PRINTS for words in before)
 

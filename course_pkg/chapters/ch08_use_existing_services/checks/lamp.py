@@ -39,7 +39,7 @@ COMPARED = "Return success=False if the lamp refuses the request or has the wron
     goals=[OBEYED, COMPARED, "Return success=False if the lamp has no server."],
 )
 def translate(context: CheckContext) -> None:
-    """Call /lamp; the lamp's server obeys, returns the wrong state, refuses, or does not exist."""
+    """Call /lamp several times; its server obeys, returns the wrong state, refuses, or does not exist."""
     panel = context.service("/lamp", "std_srvs/SetBool", hints=NO_ERROR)
     require_served_by_notebook(context, "/lamp")
     for data in (*context.random.shuffled([True, False]), context.random.choice([True, False])):

@@ -48,9 +48,9 @@ FOUND = "Return the names of all services of the given type. Do not call the ser
     goals=[FOUND, "Leave out services whose server has ended, and include services that started later."],
 )
 def find_by_type(context: CheckContext) -> None:
-    """Serve services of the searched type, of another type, and of types with similar names.
+    """Offer services of the searched type, of another type, and of types with similar names.
 
-    Later, serve another service, and register a service whose server is dead.
+    Later, offer another service, and register a service whose server is dead.
     """
     kind, other = context.random.shuffled(KINDS)[:2]
     short = kind.partition("/")[2]

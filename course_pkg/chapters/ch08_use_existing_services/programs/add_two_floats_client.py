@@ -18,7 +18,7 @@ USAGE = "usage: add_two_floats_client A B   (two numbers, such as 1.5 2)"
 
 
 def main() -> None:
-    """Call `add_two_ints` with the numbers on the command line.
+    """Call the service `add_two_ints` with the numbers on the command line.
 
     The exit status is 1 after a refusal, and 2 for wrong arguments.
     """

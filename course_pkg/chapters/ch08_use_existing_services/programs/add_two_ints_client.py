@@ -1,4 +1,4 @@
-"""The node `add_two_ints_client`: calls `add_two_ints` with two whole numbers, and prints the sum."""
+"""The node `add_two_ints_client` calls the service `add_two_ints` with two integers, and prints the sum."""
 
 from __future__ import annotations
 
@@ -24,7 +24,9 @@ def main() -> None:
 
 
 def add(node: str, kind: type | ServiceType, read: Callable[[str], float], usage: str) -> int:
-    """Call `add_two_ints` as the node `node` with the two command-line arguments; return the exit status.
+    """Call the service `add_two_ints` with the two command-line arguments; return the exit status.
+
+    `node` is the name of the client's node.
 
     `kind` is the service type that the client uses. `read` converts an argument to a number, and raises
     ValueError for an invalid argument.

@@ -1,4 +1,4 @@
-"""The node `add_two_ints_server`: serves `add_two_ints`, which adds two whole numbers."""
+"""The node `add_two_ints_server`: offers the service `add_two_ints`, which adds two whole numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The node `on_off_client`: calls `on_off` with a random number, 0 or 1, and prints the response."""
+"""The node `on_off_client` calls the service `on_off` with 0 or 1 at random, and prints the response."""
 
 from __future__ import annotations
 

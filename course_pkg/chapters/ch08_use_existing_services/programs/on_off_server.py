@@ -1,4 +1,4 @@
-"""The node `on_off_server`: serves `on_off`, which returns OFF for 0 and ON for 1."""
+"""The node `on_off_server`: offers the service `on_off`, which returns OFF for 0 and ON for 1."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ from course_pkg.waiting import at_this_load, wait_until
 PROGRAM = script("spawn_turtle_plus")
 ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
-SPEED = 2.0  # m/s
+SPEED = 2.0  # The speed is in m/s.
 LATER = 2.0  # The service /toggle_forward starts after this many s.
 TOO_LATE = "/toggle_forward starts only after the call of /spawn. Wait for each service just before its call."
 WHERE = "Publish only on the topic /NAME/cmd_vel. NAME is the name of the turtle in the response of /spawn."
@@ -57,7 +57,7 @@ FOLLOW_GOALS = {
     goals=FOLLOW_GOALS,
 )
 def bring_a_second_turtle(context: CheckContext) -> None:
-    """Run the program with all three services, with a missing service, and with a refusing service."""
+    """Run the program with all three services, without one service, and with one that refuses calls."""
     follows(context, PROGRAM)
 
 
@@ -73,7 +73,7 @@ class Driver:
     servers: dict[str, ScriptedServer] = field(default_factory=dict)
 
     def serve(self, *services: str, refusing: str = "") -> None:
-        """Start servers for `services`; the server of the service `refusing` refuses each call."""
+        """Start servers for the services; the server of the service `refusing` refuses each call."""
         for service in services:
             self.servers[service] = self.context.serve(
                 self.world.name(service),

@@ -207,7 +207,7 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
 
 
 def _started_as(printed: str, name: str) -> list[str]:
-    """Return the lines after `name`: the command with which roslaunch starts a node."""
+    """Return the lines after the node's name: the command with which roslaunch starts the node."""
     return re.findall(rf"^{name}: (.*)", printed, re.MULTILINE)
 
 

@@ -191,7 +191,7 @@ def refuses(context: CheckContext, service: Service, assertion: str, **fields: f
     ((field, number),) = fields.items()
     if number != number:
         why = "every comparison with nan is False, so test for nan separately"
-    elif field == "speed":  # A speed has no limits.
+    elif field == "speed":  # The exercise sets no limits for a speed.
         why = "accept only finite numbers (math.isfinite, in C++ std::isfinite)"
     else:
         why = "compare the number with the limits in the exercise"

@@ -117,7 +117,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _counts_each_call(toggle: Service, stream: Stream, many: int) -> None:
-    """Make several calls quickly, so that several calls come between two messages; then make `many` calls."""
+    """Make several calls between two messages; then make more calls, whose number is `many`."""
     for _ in range(2):
         toggle()
     stream.becomes(STRAIGHT, NEXT_CALL, BACK)
@@ -129,7 +129,7 @@ def _counts_each_call(toggle: Service, stream: Stream, many: int) -> None:
 def toggles_the_stream(
     toggle: Service, stream: Stream, times: int = 1, straight: tuple[float, float] = STRAIGHT
 ) -> None:
-    """Toggle the direction to turning, and back to straight ahead; repeat this `times` times."""
+    """Toggle the direction to turning and back to straight ahead; `times` is the number of repetitions."""
     for _ in range(times):
         toggle()
         stream.becomes(TURNING, ONE_CALL, TOGGLED)

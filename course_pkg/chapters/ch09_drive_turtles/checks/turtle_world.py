@@ -31,9 +31,9 @@ LOGGERS = ("/get_loggers", "/set_logger_level")  # Every node has these services
 class World:
     """A new namespace for the student's program.
 
-    A relative name in the program, such as "spawn", is resolved in this namespace. The absolute names of
-    `services` and of the turtles' topics are remapped to this namespace. `turtle` is the name of an
-    additional turtle.
+    A relative name in the program, such as "spawn", is resolved in this namespace. The absolute names of the
+    services in `services` and of the turtles' topics are remapped to this namespace. `turtle` is the name of
+    an additional turtle.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class World:
     def run(self, arguments: str = "") -> Iterator[Running]:
         """Run the student's program with arguments such as "_level:=5" during a `with` block.
 
-        A compiled program must not become another program, and must not start one.
+        A compiled program must not start another program, and must not replace itself with another program.
         """
         line = f"{self._program.line} {self._arguments} {arguments}"
         with self._copy.start(line, worded=self._program.line) as self._running:
@@ -68,12 +68,12 @@ class World:
             require_no_other_program(self._context, self._running)
 
     def examine(self) -> None:
-        """Look at the files that the student's program executes; a server of a check may call this method."""
+        """Examine the files that the student's program executes; a server of a check may call this method."""
         if self._running:
             self._running.examine()
 
     def simulator(self) -> Running:
-        """Start the simulator; a `with` block ends the simulator."""
+        """Start the simulator; it ends at the end of the `with` block."""
         line = f"rosrun turtlesim turtlesim_node __ns:={self._space} __name:={SIMULATOR}"
         return self._copy.start(line, worded="rosrun turtlesim turtlesim_node")
 
@@ -83,7 +83,7 @@ class World:
         return self._context.service(self.name(relative), kind, hints=hints, timeout=5.0)
 
     def appears(self, relative: str, within: float = STARTING) -> bool:
-        """Wait at most `within` s until the service `relative` is registered.
+        """Wait until the service `relative` is registered, for at most the time `within` (s).
 
         Return whether the service is registered.
         """
@@ -101,7 +101,7 @@ class World:
         return time.monotonic()
 
     def ends(self, running: Running, within: float) -> Finished:
-        """Wait at most `within` s until the student's program ends; return how it ended."""
+        """Wait until the student's program ends, for at most the time `within` (s); return how it ended."""
         wait_until(lambda: running.status is not None, within, POLL)
         return running.stop()
 
@@ -122,7 +122,7 @@ class World:
         self.runs_own_program()
 
     def runs_own_program(self) -> None:
-        """Assert that the node is not one of the course's own turtle programs, and no other program."""
+        """Assert that the node is the student's program, and that this program runs no other program."""
         if self._running:
             require_no_other_program(self._context, self._running)
         require_own_nodes(self._context, self._space, [self.name(SIMULATOR)])

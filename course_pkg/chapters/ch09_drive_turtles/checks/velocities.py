@@ -49,7 +49,10 @@ class Stream:
         )
 
     def next(self, count: int, within: float = SILENCE) -> list[Arrival]:
-        """Return the next `count` messages; assert that each message arrives within `within` s."""
+        """Return the next `count` messages; assert that each message arrives in time.
+
+        The maximum time until a message arrives is `within` (s).
+        """
         before = len(self._subscription.arrivals)
         for number in range(before + 1, before + count + 1):
             if len(self._subscription.wait(number, within)) < number:
@@ -68,7 +71,7 @@ class Stream:
         )
 
     def becomes(self, wanted: tuple[float, float], assertion: str, hints: Hints) -> None:
-        """Assert that the velocity becomes `wanted` (m/s, rad/s) within about 1 s.
+        """Assert that the turtle's velocity becomes `wanted` (m/s, rad/s) within about 1 s.
 
         Messages that arrived before the call of this method are ignored.
         """
@@ -98,7 +101,7 @@ class Stream:
         )
 
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
-        """Assert that `wanted` messages per second arrive.
+        """Assert that the messages arrive at the rate `wanted` (Hz).
 
         After a change of the rate, the first messages may still arrive at the old rate.
         """

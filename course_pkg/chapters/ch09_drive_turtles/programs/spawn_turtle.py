@@ -11,7 +11,7 @@ from course_pkg.ros import prepare_node
 
 NAME = "MyTurtle"
 PLACE = (3.0, 3.0, 0.0)
-TIMEOUT = 5.0  # s
+TIMEOUT = 5.0  # The time is in s.
 
 
 def main() -> None:

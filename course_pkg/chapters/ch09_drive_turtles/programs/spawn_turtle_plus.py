@@ -12,7 +12,7 @@ from course_pkg.chapters.ch09_drive_turtles.programs.spawn_turtle import NAME, r
 from course_pkg.ros import prepare_node
 from course_pkg.srv import ChangeSpeed
 
-SPEED = 2.0  # m/s
+SPEED = 2.0  # The speed is in m/s.
 
 
 def main() -> None:

@@ -258,7 +258,7 @@ def _waits_for_an_item(context: CheckContext, put: Service, take: Service) -> No
 
 
 def _shares_the_items(context: CheckContext, put: Service, take: Service) -> None:
-    """Let several clients wait, and put items one by one; there are fewer items than clients."""
+    """Let several clients wait, and put fewer items than clients into the basket, one after another."""
     items = context.random.integer(2, 4)
     clients = items + context.random.integer(2, 4)
     pause = (LAST - LATER) / (items - 1)

@@ -82,7 +82,7 @@ class Proxies:
 
 
 class Gate:
-    """A server that waits at most TOGETHER s for `count` calls, and responds `hold` s later."""
+    """A server that waits until `count` calls arrive, but at most TOGETHER s, and responds `hold` s later."""
 
     def __init__(self, count: int, words: list[str], hold: float = 0.0) -> None:
         self.most = 0  # `most` is the maximum number of clients that waited at the same time.
@@ -176,7 +176,7 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
     proxies = Proxies()
     context.place("checked_proxies", proxies)
     word, *words = (context.random.word(8) for _ in range(count - 1))
-    words += [word, word]  # Two responses contain the same message.
+    words += [word, word]  # The last two responses contain the same message.
     gate = Gate(count, words, hold)
     server = context.serve(name, TRIGGER, gate)
     result = context.run("call_at_once", name, count, within=LIMIT + hold, hints=ERRORS)

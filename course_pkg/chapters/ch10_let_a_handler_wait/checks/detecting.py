@@ -28,7 +28,8 @@ SELDOM = 8
 LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
 
 USED = 0.3  # In LONG s, the kernel may use this many s of processor time.
-PROMPT = 0.45  # In the best of ATTEMPTS calls, the response has to come this many s after the customer.
+# In the fastest of ATTEMPTS calls, the response has to come at most this many s after the customer.
+PROMPT = 0.45
 ATTEMPTS = 3
 
 SINCE_WHEN = "the field `arrived` is the time at which the customer came"
@@ -154,7 +155,10 @@ class _Shop:
         self._saying = self._context.publish(self._counter, COUNTER, [{"data": numbers}], every=0.05)
 
     def later(self, seconds: float, *numbers: int) -> None:
-        """After `seconds` s, begin to publish `numbers`, the numbers of the customers at the counter."""
+        """Wait for the time `seconds` (s), and then begin to publish the numbers of the customers.
+
+        `numbers` contains the numbers of the customers at the counter.
+        """
         Timer(seconds, self.there, numbers).start()
 
     def await_sight(self, count: int) -> None:
@@ -355,7 +359,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
 def _at_once(context: CheckContext, assertion: str, took: float, after: float = 0.0, hint: str = "") -> None:
     """Assert that the response came immediately after the customer had come.
 
-    The customer came `after` s after the request.
+    `after` is the time in s from the request to the customer.
     """
     context.require(
         assertion,

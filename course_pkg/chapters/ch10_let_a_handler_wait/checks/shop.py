@@ -66,13 +66,14 @@ NO_TILL = (
 class Till:
     """A till that charges amounts; while the till handles its first call, it calls a service of the shop.
 
-    If many clients call the till at the same time, its first call waits until `crowd` calls have arrived.
+    If many clients call the till at the same time, its first call waits for the other calls; `crowd` is the
+    total number of calls.
     """
 
     def __init__(self, context: CheckContext, left: str, shelf: CheckedShelf) -> None:
         # `acts` contains the results of the next calls; None means that the till charges the amount.
         self.acts: list[Act | None] = []
-        self.charged: list[int] = []  # cents
+        self.charged: list[int] = []  # The amounts are in cents.
         self.ids: list[str] = []
         # `answers` contains the shop's responses to calls of /left; "" means that there was no response yet.
         self.answers: list[str] = []
@@ -87,7 +88,7 @@ class Till:
         self._changed = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next calls wait until `crowd` calls have arrived, but for at most MEETING s."""
+        """Let the next calls wait until `crowd` calls have arrived; the maximum waiting time is MEETING s."""
         self._meets = True
 
     def __call__(self, request: Message) -> Act:

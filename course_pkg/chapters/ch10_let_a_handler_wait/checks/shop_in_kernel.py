@@ -29,9 +29,9 @@ MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy m
 MEETING = 0.01  # A thread waits at most this many s for another thread.
 # The first of many threads waits at most this many s until the other threads have started.
 FIRST_MEETING = 0.3
-FIRST = 2  # This many calls of read() or write() wait for up to FIRST_MEETING s.
+FIRST = 2  # In this many calls, read() and write() wait for up to FIRST_MEETING s.
 ENTERING = 2.0  # The first of many handlers waits at most this many s for the second handler.
-LATE = 7  # With many threads, each seventh read is late.
+LATE = 7  # With many threads, every seventh read is late.
 LATE_READ = 0.05  # A late read waits at most this many s for a write of another thread.
 
 KERNEL_CODE = (
@@ -70,8 +70,8 @@ checked_shop = CheckedShop()
 class CheckedShelf:
     """A shelf with `count` things. The student's code in the kernel uses the shelf through a proxy object.
 
-    Each read and each write waits for a short time, and ends early if another thread reads. Therefore, two
-    threads without a lock read the same number.
+    Each read and each write waits for a short time; the wait ends early if another thread reads. Therefore,
+    two threads without a lock read the same number.
 
     With many threads, some reads are late: they wait for a write of another thread, and then return the new
     number. A thread that reads without the lock, for example after its own sale, gets this new number.

@@ -101,7 +101,7 @@ def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: floa
 
 
 def _sells_what_comes_later(context: CheckContext, take: Service, things: int) -> None:
-    """Take a thing after `things` new things were put on the shelf."""
+    """Put new things on the shelf, and then take one thing; `things` is the number of new things."""
     context.expect(
         'the message is the number of things that are left, or "sold out"',
         expected=str(things - 1),

@@ -68,7 +68,7 @@ class CheckedLock:
 
     @remote
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Acquire the lock, as with threading.Lock."""
+        """Acquire the lock; the arguments are those of threading.Lock.acquire()."""
         if self.owner == threading.get_ident() and blocking and timeout < 0:
             raise Deadlock("the thread already holds this lock")
         limited = blocking and timeout < 0
@@ -84,7 +84,7 @@ class CheckedLock:
 
     @remote
     def release(self) -> None:
-        """Release the lock, as with threading.Lock."""
+        """Release the lock, like threading.Lock.release()."""
         self.owner = None
         self._lock.release()
 

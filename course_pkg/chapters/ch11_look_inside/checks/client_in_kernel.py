@@ -67,7 +67,7 @@ class Client:
 
     def __init__(self, context: CheckContext, kind: str, name: str) -> None:
         self._context, self._kind = context, kind
-        self.sides: list[float] = []  # The sides of the last box, in m.
+        self.sides: list[float] = []  # These are the sides of the last box in m.
         self._measured = 0
         context.prepare(KERNEL_CODE)
         made = context.run("make_client", Its(kind), name, worded=f"{kind}(service)")

@@ -290,7 +290,7 @@ SAID_NO = (
     goals=[STORED, "Look up the address again if no server is at the stored address any more."],
 )
 def client_with_a_known_address(context: CheckContext) -> None:
-    """Call a running service, an unregistered service, a refusing service, and a service at a new address."""
+    """Call a service that runs, is not registered, refuses a call, or has a new address."""
     name = f"/{context.random.word()}"
     numbers = [context.random.numbers(2, 10.0, 90.0) for _ in range(3)]
     answers: list[Act] = [dict(zip(("area", "volume"), each, strict=True)) for each in numbers]

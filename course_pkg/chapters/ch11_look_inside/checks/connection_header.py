@@ -335,7 +335,7 @@ class OtherEnd:
     The object sends `pieces`, and keeps the connection open until the `with` block ends.
 
     The server sends each piece after the client has read the previous piece. Therefore, a client that reads
-    only once gets only one piece. There is a pause of `pause` s before each piece.
+    only once gets only one piece. `pause` is the time in s before each piece.
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False, pause: float = 0.0) -> None:
@@ -376,7 +376,8 @@ class OtherEnd:
         return False
 
     def _send(self) -> None:
-        with suppress(OSError):  # If the kernel closes its socket or never connects, an OSError is raised.
+        # If the kernel closes its socket or does not connect, socket methods raise an OSError.
+        with suppress(OSError):
             sock, _ = self._listener.accept()
             with sock:
                 self._sock = sock

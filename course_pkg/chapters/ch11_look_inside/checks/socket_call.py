@@ -52,7 +52,7 @@ def begin():
 def end():
     for each, code in zip(FUNCTIONS, CODE):
         each.__code__ = code
-"""  # During the check, a client of ROS or a program such as rosservice cannot call the service.
+"""  # During the check, a client of rospy or a program such as rosservice cannot call the service.
 AS_BYTES = matches(r"\bb['\"]")
 NO_HEADER = (
     "The header has to start with its length, in 4 bytes. Use `pack_header`, which writes this length."
@@ -314,7 +314,7 @@ def _sends_the_header(context: CheckContext, conversation: Conversation, name: s
 
 
 def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: bool) -> None:
-    """Let the server refuse the call; assert that the student's function raises an error with `reason`."""
+    """Let the server refuse the call; assert that the error of the student's function contains the reason."""
     name, kind = f"/{context.random.word()}", context.service_class(GEOMETRY)
     with TcprosServer(kind, (0.0, 0.0), refusal=message, in_handshake=in_handshake) as server:
         result = context.run("ask", server.uri, name, *context.random.numbers(3, 0.5, 9.0), within=3.0)

@@ -30,13 +30,13 @@ def main() -> None:
     try:
         _add_up(*arguments)
     except rospy.ROSInterruptException:
-        return  # Ctrl-C
+        return  # The user has pressed Ctrl-C.
     except (rospy.ROSException, rospy.ServiceException, CourseError) as error:
         sys.exit(complain(str(error), 1))
 
 
 def read_arguments(arguments: Sequence[str]) -> tuple[str, list[int]] | None:
-    """Return the session and the amounts; None if the arguments are not a name and whole numbers."""
+    """Return the session and the amounts; return None if they are not a name and whole numbers."""
     try:
         session, amounts = arguments[0], [int(argument) for argument in arguments[1:]]
     except (IndexError, ValueError):

@@ -1,4 +1,4 @@
-"""The node `session_server`: serves `add_up`, which has a separate total for each session.
+"""The node `session_server`: offers the service `add_up`, which has a separate total for each session.
 
 A request does not contain the name of its sender. Therefore, a client writes the name of its session into the
 field `session` of the connection header. A header may contain any field
@@ -16,7 +16,8 @@ from course_pkg.srv import AddUp, AddUpRequest, AddUpResponse
 
 FIELD = "session"
 LARGEST = 2**31 - 1  # LARGEST is the maximum value of an int32.
-# At most this many sessions are stored. A new session replaces the session that has been unused for longest.
+# At most this many sessions are stored. A new session replaces the session that has been unused for the
+# longest time.
 MOST = 1000
 
 

@@ -1,4 +1,4 @@
-"""Measures times for 12.3; each time is measured repeatedly, because the machine may be busy."""
+"""Measures pauses and durations for 12.3, each of them several times, because the machine may be busy."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ TRY = 0.5  # TRY is the time limit in s for one attempt.
 PAUSE = 0.1  # PAUSE is the time in s before the second attempt.
 # The shortest first pause, together with the time for a new connection, may take at most this many s.
 FIRST = 1.8 * PAUSE
-PAYMENTS = 5  # Each time is measured in at most this many payments.
+PAYMENTS = 5  # The check measures each pause or duration in at most this many payments.
 REPEATED = 3  # The pause after a TimeoutError is measured in at most this many payments.
 # The deadline of a payment is this many s after its start. At this time, the client is in its fourth pause,
 # which would end after 1.5 s.
 AT_END = 0.9
-ENDED = 1.3  # The fastest of these payments may take at most this many s.
+ENDED = 1.3  # If no till is running, the fastest of several payments may take at most this many s.
 AT_WORK = 0.5  # A client must make attempts for at least this many s.
 GONE = (
     "No server offers the till's service, but pay() waits for this service without a time limit. Use the "
@@ -54,10 +54,10 @@ def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) ->
 
 
 def pauses_after_a_timeout(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the third attempt reach its limit, and measure the next pause, which has to take 4 * PAUSE.
+    """Let the third attempt reach its time limit, and measure the next pause, which has to take 4 * PAUSE.
 
-    A busy machine makes this time shorter if the request of the third attempt arrives late. Therefore, a
-    short pause is measured again.
+    If the machine is busy, the request of the third attempt may arrive late, and the measured pause is then
+    too short. Therefore, a short pause is measured again.
     """
     pauses = []
     for _ in range(REPEATED):

@@ -62,7 +62,10 @@ class Books:
 
 
 def pay(context: CheckContext, name: str, cents: int, deadline: float, hints: Hints = ERRORS) -> Result:
-    """Run the student's function with a `deadline` (s); stop the function 6 s after the deadline."""
+    """Run the student's function; stop it 6 s after its deadline.
+
+    `deadline` is the time in s from the call to the deadline.
+    """
     return context.run("pay", name, cents, deadline, within=deadline + 6.0, hints=hints)
 
 

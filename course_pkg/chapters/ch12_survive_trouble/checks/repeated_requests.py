@@ -133,7 +133,7 @@ class CheckedPurse:
 
     @remote
     def take(self, cents: Value) -> None:
-        """Take money."""
+        """Take this amount of money from the purse."""
         with self._turn:
             amount = str(cents)
             self._asked[amount] += 1
@@ -153,7 +153,7 @@ class CheckedPurse:
 
 
 def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
-    """Serve `name` with a new Till; return the purse of this Till, and the result of Till(purse)."""
+    """Offer the service `name` with a new Till; return the Till's purse, and the result of Till(purse)."""
     purse = CheckedPurse()
     context.place("checked_purse", purse)
     its = Its("Till"), Its("checked_purse")

@@ -72,7 +72,7 @@ REPEATED = "Pay exactly once at a till that fails and recovers."
     },
 )
 def a_robust_client(context: CheckContext) -> None:
-    """Run pay() with a working, a refusing, a recovering, and a silent till."""
+    """Run pay() with a till that works, refuses, works again after a failure, or does not respond."""
     books, name = Books(context), f"/{context.random.word()}"
     till = context.faulty(name, CHARGE, books.work)
     _pays(context, name, till, books)

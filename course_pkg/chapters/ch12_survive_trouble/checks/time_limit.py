@@ -82,7 +82,7 @@ class Held:
         self._released.set()
 
     def wait(self) -> None:
-        """Wait until release() was called, or for HELD s."""
+        """Wait until release() is called, but for at most HELD s."""
         self._released.wait(HELD)
 
 

@@ -56,8 +56,9 @@ class CheckedMaster:
     """Calls a master for the watchdog, and records these calls.
 
     After hold(), the master reports that it knows no services. The watchdog therefore registers its service
-    again. This registration waits until stop() has returned. Because stop() may wait for the watchdog's
-    thread, the registration also continues `slow` s after the call of stop(), or after PAUSE s in any case.
+    again. This registration waits until stop() has returned. But stop() may wait for the watchdog's thread.
+    Therefore, the registration also continues when `slow` s have passed since the call of stop(). Without a
+    call of stop(), the registration continues after PAUSE s.
     """
 
     def __init__(self, uri: str, slow: float) -> None:
@@ -98,7 +99,7 @@ class CheckedMaster:
 
     @remote
     def stopping(self) -> None:
-        """Let a waiting registration continue after `slow` s, because stop() was called."""
+        """After stop() was called, let a waiting registration continue, but only after `slow` s."""
         threading.Timer(self._slow, self._release).start()
 
     @remote
@@ -108,7 +109,7 @@ class CheckedMaster:
         self._release()
 
     def polls_after(self, when: float) -> int:
-        """Return the number of polls that began after `when` (s, time.monotonic())."""
+        """Return the number of polls that began after the time `when` (s, time.monotonic())."""
         return max(Counter(method for method, at in self.polls.copy() if at > when).values(), default=0)
 
     def hold(self) -> None:

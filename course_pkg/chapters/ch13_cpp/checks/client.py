@@ -24,7 +24,7 @@ TRIES = 3  # The client makes at most this many calls.
 SLACK = 2.5  # On a busy machine, a run may take this many s longer.
 PAUSE = 0.045  # Two calls must be at least this many s apart. The exercise requires 0.05 s.
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
-POLL = 0.03  # POLL is the time in s between two looks at the client.
+POLL = 0.03  # POLL is the time in s between two examinations of the client.
 LIMIT = 5.0  # LIMIT is the time in s after which the check stops the program.
 
 MILLISECONDS = (
@@ -53,14 +53,14 @@ REPEATS = "Call the service at most 3 times, with pauses. End with exit status 1
 
 @dataclass
 class Client:
-    """The student's client; during each call, its server looks at the files that the client executes."""
+    """The student's client; during each call, its server examines the files that the client executes."""
 
     context: CheckContext
     folder: Folder
     running: Running | None = None
 
     def serve(self, name: str, act: Callable[[], Act]) -> ScriptedServer:
-        """Serve `name` until the check ends; `act` returns the action for a call."""
+        """Offer the service `name` until the check ends; the function `act` returns the action for a call."""
 
         def answer(_: object) -> Act:
             if self.running:
@@ -153,7 +153,7 @@ def _prints_a_volume_of_0(context: CheckContext, client: Client) -> None:
 
 
 def _prints_more_answers(context: CheckContext, client: Client) -> None:
-    """Run the client a random number of times, so that it cannot expect a situation by counting the runs."""
+    """Run the client a random number of times, so that it cannot predict a situation by counting its runs."""
     for _ in range(context.random.integer(0, 2)):
         name, sides, volume = _random_box(context)
         client.serve(name, partial(dict, volume=volume))

@@ -54,7 +54,7 @@ def compiled(context: CheckContext, file: str, text: str = "") -> Folder:
 
 @contextmanager
 def started(context: CheckContext, folder: Folder, service: str, name: str) -> Iterator[Running]:
-    """Run ./program as a node with a random name; it must not become another program, or start one.
+    """Run ./program as a node with a random name; it must not execute another program.
 
     The program's service `service`, such as "box", is remapped to the name `name`.
     """
@@ -65,7 +65,7 @@ def started(context: CheckContext, folder: Folder, service: str, name: str) -> I
 
 
 def serves(context: CheckContext, running: Running, service: str, name: str, code: str) -> None:
-    """Assert that the program serves `name` and continues to run; if it does not, report the reason."""
+    """Assert that the program offers the service `name` and continues to run; if not, report the reason."""
     assertion, deadline = SERVED.format(service), time.monotonic() + at_this_load(STARTING)
     while context.look().service(name) is None:
         if running.status is not None or time.monotonic() > deadline:

@@ -14,10 +14,11 @@ from course_pkg.waiting import at_this_load, wait_until
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
 THINKING, COUNTING = 0.4, 0.05  # These times in s are the same as in the file that the exercise provides.
-# The time between two responses may be at most this many s; it is longer if a call has to wait for a thread.
+# The time between two responses may be at most this many s. If a call has to wait for a thread, this time is
+# longer.
 APART = 0.15
 LATE = 0.2  # The fastest call may take this many s longer than think() and count().
-# The check replaces the duration in think() by a drawn duration, so the handler has to call think().
+# The check replaces the duration in think() by a random duration, so the handler has to call think().
 ORIGINAL = re.compile(r"(void\s+think\(\)\s*\{[^{}]*WallDuration\()0\.4(\)\s*\.sleep\(\)\s*;[^{}]*\})")
 # The check repeats six simultaneous calls for at most this many s, until all calls overlap; on a busy
 # machine, a call may start late.
@@ -135,8 +136,9 @@ def number_server(context: CheckContext) -> None:
 def _still_thinks(context: CheckContext, code: str, time: float, took: float, most: float = inf) -> None:
     """Assert that the handler calls think() and count(), and that their durations are unchanged.
 
-    A call must take at least `time` s, as with the code that the exercise provides, and at most `most` s.
-    `took` is the duration of a call in s, or 0 if the text of think() was changed.
+    `time` and `most` are the minimum and the maximum duration of a call in s. A call with the code that the
+    exercise provides takes at least the time `time`. `took` is the duration of a call in s, or 0 if the text
+    of think() was changed.
     """
     context.require(
         "think() and count() take as long as before",

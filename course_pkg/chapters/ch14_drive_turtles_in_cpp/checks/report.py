@@ -15,9 +15,9 @@ from course_pkg.checking.plain_values import Value
 THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
 SERVICES = ("battery", "report")
-GROUPS = 30  # number of groups of simultaneous calls
-FAILED = 2  # Failed calls are accepted in this number of groups.
-FEW, MANY = 3, 8  # The numbers of simultaneous clients.
+GROUPS = 30  # The check makes this number of groups of simultaneous calls.
+FAILED = 2  # The check accepts failed calls in at most this number of groups.
+FEW, MANY = 3, 8  # These are the numbers of simultaneous clients.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
     "The handler of /report waits for /battery, but no free thread can execute the handler of "
@@ -204,8 +204,9 @@ def _groups(report: Service, clients: int) -> Iterator[Reply]:
     """Make many groups of simultaneous calls, and yield the replies.
 
     On a busy machine, the calls of one group may arrive one after another, so one group is not enough. If
-    threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, failed calls are
-    accepted in FAILED groups. After a deadlock, all later calls fail, so a deadlock is still found.
+    threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, up to
+    FAILED groups may contain failed calls. After a deadlock, all later calls fail, so a deadlock is still
+    found.
     """
     failed = 0
     for _ in range(GROUPS):

@@ -104,7 +104,7 @@ def _counts(
 
 
 def _call(name: str, kind: ServiceClass, headers: dict[str, str]) -> str:
-    """Call the service `name` with the header fields `headers`; return the message, also of an error."""
+    """Call the service `name` with header fields; return the message of the response or of the error."""
     inbox: queue.Queue[str] = queue.Queue()
 
     def call() -> None:

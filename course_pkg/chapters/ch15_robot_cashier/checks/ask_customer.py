@@ -157,8 +157,8 @@ class Run:
     def end(self, within: float = ENDING) -> Run:
         """Wait until the program ends.
 
-        The program is stopped if it still runs `within` s after its node was on the graph. In this case,
-        `status` is None.
+        `within` is the time limit in s, from the time when the node was on the graph. If the program still
+        runs after this time, it is stopped, and `status` is None.
         """
         self.is_on_the_graph()
         wait_until(self.has_ended, within, 0.05)
@@ -184,7 +184,7 @@ class Run:
 
 
 class _Detector:
-    """A detector that finds a customer only if `patience` is equal to `wait`.
+    """A detector that finds a customer only if the request's `patience` is equal to the attribute `wait`.
 
     The detector refuses a call if `patience` is REFUSED.
     """

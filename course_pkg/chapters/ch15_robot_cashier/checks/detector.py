@@ -31,8 +31,8 @@ APART = 0.06
 BEGUN = 0.6  # All calls have begun after this many s.
 SOONER = 1.0  # In a repeated attempt, the customer comes after this many s.
 ATTEMPTS = 3
-# In the best attempt, each response has to come this many s after the customer. With pauses of 0.5 s between
-# two polls, the last response comes later.
+# In the best attempt, each response has to come at most this many s after the customer. With pauses of 0.5 s
+# between two polls, the last response comes later.
 PROMPT = 0.4
 
 NOT_SEEN = (
@@ -101,7 +101,7 @@ SILENT_CAMERA = "Refuse a call if no message has arrived yet, or if no message a
     goals={WAITED: 3, SEVERAL: 2, "Refuse an impossible value of `patience`.": 1},
 )
 def the_detector(context: CheckContext) -> None:
-    """Call the detector while a customer is there, while no customer is there, and several times at once."""
+    """Call the detector with a customer, without a customer, and several times at the same time."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -191,7 +191,9 @@ def _serves_several_callers(context: CheckContext, detect: Service, vision: Seen
 def _calls_that_wait(
     pool: ThreadPoolExecutor, detect: Service, vision: SeenCustomers, later: float
 ) -> list[Future[tuple[float, bool]]]:
-    """Begin CALLERS calls one after another, and let a customer come after `later` s.
+    """Begin CALLERS calls one after another; later, let a customer come.
+
+    `later` is the time in s until the customer comes.
 
     For each call, the result is the time in s from the customer to the response, and the field `found`.
     """

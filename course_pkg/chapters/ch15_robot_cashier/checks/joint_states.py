@@ -49,7 +49,7 @@ class JointState:
 
     @property
     def misses_velocities(self) -> bool:
-        """Whether there are velocities, but not as many as names."""
+        """Whether the number of velocities is not 0 and differs from the number of names."""
         return len(self.velocity) not in (0, len(self.name))
 
     @property

@@ -122,7 +122,7 @@ def the_launch_file(context: CheckContext) -> None:
 
 
 def _remaps_nothing(context: CheckContext, printed: str) -> None:
-    """Report a failure if the file connects a node to another name."""
+    """Report a failure if the launch file remaps a name of a node."""
     for node, old, new in re.findall(r"^remapped (\S+) (\S+) (\S+)", printed, re.MULTILINE):
         context.fail(
             "each node has its own program",

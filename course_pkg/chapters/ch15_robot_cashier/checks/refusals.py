@@ -17,7 +17,7 @@ BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")
 def refused(
     context: CheckContext, service: Service, assertion: str, word: str, hints: Hints, **fields: Value
 ) -> None:
-    """Assert that the service refuses a request with an error message that contains `word`.
+    """Assert that the service refuses a request with an error message that contains the text `word`.
 
     `hints` contains the hints for two cases: the call is not refused, or the error message does not contain
     `word`.

@@ -15,7 +15,7 @@ EVERY = 0.1  # EVERY is the time in s between two messages.
 
 
 class SeenCustomers:
-    """Publishes `customer` every 0.1 s, unless `customer` is None; `last` is the time of the last message."""
+    """Publishes `customer` every 0.1 s unless it is None; `last` is the time of the last message."""
 
     def __init__(self, topic: str) -> None:
         self.customer: bool | None = None
@@ -38,14 +38,14 @@ class SeenCustomers:
         )
 
     def show(self, customer: bool | None) -> None:
-        """From now on, publish `customer`; return when the first message with this value has arrived."""
+        """From now on, publish the value `customer`; return when the first message with it has arrived."""
         with self._lock:
             self.customer = customer
             self._send()
         time.sleep(0.05)
 
     def show_later(self, after: float, customer: bool) -> None:
-        """After `after` s, begin to publish `customer`."""
+        """Wait for the time `after` (s), and then begin to publish the value `customer`."""
         timer = threading.Timer(after, self.show, [customer])
         timer.daemon = True
         timer.start()

@@ -52,7 +52,7 @@ class Interface:
         return [*self.services, *self.publishes, *self.subscribes]
 
     def missing(self, seen: Snapshot, space: str, node: str) -> list[str]:
-        """Return the missing names of `node`, such as "serves till/set"."""
+        """Return the missing names of the node `node`, such as "serves till/set"."""
         topics = {topic.name: topic for topic in seen.topics}
         served = {service.name for service in seen.services if service.node == node}
         lacking = [f"serves {name}" for name in self.services if f"{space}/{name}" not in served]
@@ -143,7 +143,7 @@ def complete(
 def still(started: float, least: float) -> float:
     """Return the time until which a node must have all its names; the node has its first name now.
 
-    The result is `least` s from now, or more if the start of the node took long.
+    `least` is the minimum time in s from now. If the node has started slowly, the node gets more time.
 
     `started` and the result are in s of time.monotonic().
     """

@@ -132,7 +132,7 @@ class Camera:
 
 
 def image_of(context: CheckContext, width: int, height: int, dark: int, style: Style | None = None) -> Image:
-    """Return a frame with `dark` dark points at random positions; all other points are very bright."""
+    """Return a frame with random dark points, whose number is `dark`; all other points are very bright."""
     style = style or Style()
     points = [context.random.integer(*style.dark) for _ in range(dark)]
     points += [context.random.integer(230, 255) for _ in range(width * height - dark)]

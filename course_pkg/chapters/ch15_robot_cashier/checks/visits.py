@@ -155,7 +155,7 @@ GREETED = "Greet each customer once, and publish mirror images of the arm at the
     },
 )
 def the_visits(context: CheckContext) -> None:
-    """Serve a detector that responds, refuses and closes a connection, and a till that refuses once."""
+    """Run a detector that responds, refuses and closes a connection, and a till that refuses once."""
     package = examined(context, NAME)
     names = [*INTERFACE.names, DETECT, RESET]
     space, other = (f"/{context.random.word()}" for _ in range(2))
@@ -259,7 +259,7 @@ def _called(detector: Detector, times: int) -> bool:
 
 
 def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscription) -> None:
-    """Wait for the calls in STEPS in order, and compare the `patience` and the time of each call."""
+    """Wait for the calls in STEPS in order, and check the `patience` and the time of each call."""
     for number, step in enumerate(STEPS):
         came = _called(detector, number + 1)
         before = STEPS[number - 1].name if number else "nothing"

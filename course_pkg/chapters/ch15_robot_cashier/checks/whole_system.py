@@ -53,7 +53,8 @@ SERVICES = {
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
 SYSTEM = "roslaunch starts the whole system"
-VISITS = 2  # After the restart, the check lets up to this many customers come, until one is greeted.
+# After the restart, the check lets up to this many customers come, until the cashier greets one of them.
+VISITS = 2
 MANY = 6  # MANY is the number of simultaneous calls of till/set.
 
 NOT_LAUNCHED = (
@@ -250,7 +251,7 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer returns `customer` within REACTION s."""
+        """Return whether detect_customer returns the value `customer` within REACTION s."""
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
 
         def told() -> bool:
@@ -363,7 +364,7 @@ class Shop:
 
 
 def _waits_briefly(context: CheckContext, delay: float) -> None:
-    """Report a failure if roslaunch waits for `delay` s before a restart, and this is too long.
+    """Report a failure if `delay`, the time in s before roslaunch restarts a node, is too long.
 
     On a busy machine, the deadline for the restart is longer than BACK, so the check also reads the file.
     """
@@ -373,7 +374,10 @@ def _waits_briefly(context: CheckContext, delay: float) -> None:
 
 
 def _restarts_killed_nodes(context: CheckContext, package: BuiltPackage, space: str, within: float) -> None:
-    """Kill the four nodes; each node must run again as a new process within `within` s."""
+    """Kill the four nodes; each node must run again in time as a new process.
+
+    `within` is the time limit in s.
+    """
     started = context.look()
     before = {node: _pid(started, f"{space}/{node}") for node in NODES}
     own = [started.node(f"{space}/{node}") for node in NODES]

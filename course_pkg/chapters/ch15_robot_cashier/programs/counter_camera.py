@@ -1,8 +1,8 @@
 """The node `counter_camera`: a small grey camera above the counter of the robot cashier.
 
-The node publishes `~rate` (default 10) images per second on `frames` (sensor_msgs/Image, mono8), and serves
-`let_in` (course_pkg/LetIn). If `~every` is above 0, additional customers come: on average, one customer every
-`~every` s.
+The node publishes images on the topic `frames` (sensor_msgs/Image, mono8), and offers the service `let_in`
+(course_pkg/LetIn). The parameter `~rate` (default 10) is the number of images per second. If `~every` is
+above 0, additional customers come at random times; `~every` is the average time in s between two of them.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from course_pkg.shop.counter import Counter
 from course_pkg.shop.pictures import HEIGHT, WIDTH, frame_points
 from course_pkg.srv import LetIn, LetInRequest, LetInResponse
 
-RATE = 10.0  # Hz
+RATE = 10.0  # The rate is in Hz.
 STAY = 4.0  # An additional customer stays for STAY s.
 
 
@@ -58,7 +58,7 @@ class CounterCamera:
                 return
 
     def _there(self) -> int:
-        """Return the number of customers at the counter; plan a customer if no customer is planned."""
+        """Return the number of customers at the counter; if no customer is planned, plan the next one."""
         with self._lock:
             now = time.time()
             if self._every and self._counter.next_change(now) == math.inf:
@@ -67,7 +67,7 @@ class CounterCamera:
 
 
 def frame_of(customers: int) -> Image:
-    """Return an image that shows `customers` customers; the image's stamp is the current time."""
+    """Return an image with this number of customers; the image's stamp is the current time."""
     frame = Image(height=HEIGHT, width=WIDTH, encoding="mono8", step=WIDTH)
     frame.header.stamp = rospy.Time.now()
     frame.header.frame_id = "counter"

@@ -1,6 +1,6 @@
 """The node `customer_detector`: waits for a customer at the counter, and returns whether there is one.
 
-The node subscribes to `customer_seen` (std_msgs/Bool), and serves `detect_customer`
+The node subscribes to the topic `customer_seen` (std_msgs/Bool), and offers the service `detect_customer`
 (course_pkg/AwaitCustomer). A call waits for a customer; the request contains the maximum waiting time.
 """
 
@@ -25,7 +25,7 @@ class CustomerDetector:
         rospy.Subscriber("customer_seen", Bool, self._eye.hear, queue_size=1, tcp_nodelay=True)
 
     def handle_detect(self, request: AwaitCustomerRequest) -> bool:
-        """Return True as soon as there is a customer, and False after `patience` s.
+        """Return True as soon as there is a customer; return False if none comes within `patience` (s).
 
         Raises ServiceException if `patience` is out of range, or if the camera sends no messages.
         """

@@ -1,7 +1,8 @@
 """The node `receipt_printer`: prints one line at a time until it has no paper.
 
-The node serves `print_line` (course_pkg/PrintLine), and publishes each printed line on `receipt`
-(std_msgs/String). The private parameter `~paper` (default 1000) is the number of lines that can be printed.
+The node offers the service `print_line` (course_pkg/PrintLine), and publishes each printed line on the topic
+`receipt` (std_msgs/String). The private parameter `~paper` (default 1000) is the number of lines that can be
+printed.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from course_pkg.ros.node.program import number_parameter, start_node, undisturbe
 from course_pkg.shop.printer import Printer
 from course_pkg.srv import PrintLine, PrintLineRequest, PrintLineResponse
 
-PAPER = 1000  # lines
+PAPER = 1000  # The paper is long enough for this many lines.
 
 
 class ReceiptPrinter:

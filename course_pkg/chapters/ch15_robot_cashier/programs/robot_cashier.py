@@ -1,9 +1,10 @@
 """The node `robot_cashier`: mirrors the arm, and greets customers at the same time.
 
-The node publishes the mirror image of each message of `joint_states` on `mirrored_joints`. The node calls
-`detect_customer` (course_pkg/AwaitCustomer) repeatedly; `patience` in the request is the value of the
-parameter `~wait` (default 2 s). For each visit, the node publishes one greeting on `greetings`
-(std_msgs/String). After a visit, the node calls `till/reset` (std_srvs/Trigger).
+The node publishes the mirror image of each message on the topic `joint_states` on the topic
+`mirrored_joints`. The node calls the service `detect_customer` (course_pkg/AwaitCustomer) repeatedly;
+`patience` in the request is the value of the parameter `~wait` (default 2 s). For each visit, the node
+publishes one greeting on the topic `greetings` (std_msgs/String). After a visit, the node calls `till/reset`
+(std_srvs/Trigger).
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ class RobotCashier:
                 self._empty_till()
 
     def _is_there(self, wait: float, otherwise: bool = False) -> bool:
-        """Return whether a customer comes within `wait` s; after a failed call, return `otherwise`."""
+        """Return whether a customer comes within the time `wait` (s); after an error, return `otherwise`."""
         try:
             return bool(self._detect.call(patience=wait, timeout=wait + GRACE).found)
         except FAILED as error:

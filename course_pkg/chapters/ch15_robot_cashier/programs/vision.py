@@ -1,6 +1,6 @@
-"""The node `vision`: publishes on `customer_seen` (std_msgs/Bool) whether a frame shows a customer.
+"""The node `vision`: publishes on the topic `customer_seen` (std_msgs/Bool) whether a frame shows a customer.
 
-The node subscribes to `frames` (sensor_msgs/Image), and publishes one message for each valid frame.
+The node subscribes to the topic `frames` (sensor_msgs/Image), and publishes one message for each valid frame.
 """
 
 from __future__ import annotations

@@ -73,7 +73,7 @@ class Robot:
         self.cancelled_all = self.cancelled_all or not cancelled.id
 
     def execute(self, goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
-        """Finish after `seconds` s, or after a cancellation; the result is the same in both cases."""
+        """Finish after the goal's time, or after a cancellation; the result is the same in both cases."""
         self.goals.append(goal)
         began = time.monotonic()
         if self._stubborn:
@@ -86,7 +86,7 @@ class Robot:
         if server.is_preempt_requested():
             self.took = time.monotonic() - began
             self.cancelled.set()
-            wait.wait(0.3)  # The robot first finishes the current thing.
+            wait.wait(0.3)  # The robot first finishes the thing that it is fetching.
             server.set_preempted(FetchResult(fetched=self._fetched))
         elif self._aborts:
             server.set_aborted(FetchResult(fetched=self._fetched))
@@ -140,7 +140,7 @@ def _wrong_result(robot: Robot, things: int) -> Hints:
 
 @contextmanager
 def _serving(name: str, robot: Robot) -> Iterator[None]:
-    """Serve the action `name` until the end of the block; the object `robot` executes the goals."""
+    """Serve the action `name` until the end of the `with` block; the object `robot` executes the goals."""
     server = ActionServer(name, FetchAction, robot.execute)
     cancellations = rospy.Subscriber(f"{name}/cancel", GoalID, robot.receive_cancel)
     try:

@@ -95,7 +95,7 @@ def _is_served(context: CheckContext, client: actionlib.SimpleActionClient) -> N
 def _sends(
     context: CheckContext, client: actionlib.SimpleActionClient, goal: FetchGoal, after: str = ""
 ) -> None:
-    """Send a goal; a report shows the goal, and the text `after` about what the check does after it."""
+    """Send a goal; a report shows the goal, and the text `after`, which says what the check does next."""
     context.under_way(f"a goal with things={goal.things} and seconds={goal.seconds}{after}")
     client.send_goal(goal)
 
@@ -183,7 +183,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
 
 
 def _pace(at: list[float], alone: float) -> float:
-    """Return the median time between two messages in s, or `alone` if there is only one message."""
+    """Return the median time between two messages in s; return `alone` if there is only one message."""
     gaps = [after - before for before, after in itertools.pairwise(at)]
     return statistics.median(gaps) if gaps else alone
 

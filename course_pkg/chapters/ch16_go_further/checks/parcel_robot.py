@@ -30,7 +30,7 @@ USUAL = 5  # Without an argument, the robot has the capacity for this many parce
 FEW = 4  # The first robot has the capacity for this many parcels, which is less than the default.
 PARCELS = 3  # Each delivery has this many parcels, which both robots can carry.
 EACH = 0.2  # A robot needs this many s for one parcel.
-SLOWER = (0.55, 0.9)  # In a delivery that is cancelled, one parcel takes a number of s between these.
+SLOWER = (0.55, 0.9)  # In a cancelled delivery, the time in s for one parcel is between these two limits.
 PERIOD = 0.2  # The robot publishes the charge of its battery every PERIOD s.
 LONG = 2.5  # In the last goal, which has too many parcels, each parcel would need this many s.
 ENDING = 4.0  # ENDING is the time limit in s for the end of a goal.
@@ -315,7 +315,10 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
 def _aborts_at_once(
     context: CheckContext, client: actionlib.SimpleActionClient, capacity: int, each: float
 ) -> None:
-    """Send a goal with one parcel too many and `each` s per parcel; the goal must be aborted immediately."""
+    """Send a goal with one parcel too many; the goal must be aborted immediately.
+
+    `each` is the time in s for each parcel.
+    """
     began = time.monotonic()
     client.send_goal(FetchGoal(things=capacity + 1, seconds=each))
     _ends_as(

@@ -64,7 +64,7 @@ class Robot:
 
 
 def started(context: CheckContext, folder: Folder, *arguments: str) -> Robot:
-    """Start the student's program with `arguments`, in a random namespace, and with a random node name."""
+    """Start the student's program with the arguments, in a random namespace, and with a random node name."""
     space, node = f"/{context.random.word()}", context.random.word()
     line = ["python", FILE, f"__ns:={space}", f"__name:={node}", *arguments]
     return Robot(folder.start(*line, worded=f"python3 {FILE}"), space, f"{space}/{node}")
@@ -123,7 +123,7 @@ def _kind(seen: Snapshot, robot: Robot, full: str) -> str:
 
 
 def _elsewhere(seen: Snapshot, robot: Robot, name: str) -> bool:
-    """Return whether the robot uses `name` as an absolute or private name, instead of a relative name."""
+    """Return whether the robot uses the name as an absolute or private name, instead of a relative name."""
     return bool(_kind(seen, robot, f"/{name}") or _kind(seen, robot, f"{robot.node}/{name}"))
 
 

@@ -17,7 +17,7 @@ LONGEST = 60.0  # LONGEST is the maximum time in s for a single thing.
 
 
 def fetch(goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
-    """Execute `goal`; a goal with invalid numbers is aborted.
+    """Execute the goal `goal`; a goal with invalid numbers is aborted.
 
     If the goal is cancelled, the robot stops after the current thing.
     """

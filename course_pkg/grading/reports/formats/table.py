@@ -1,4 +1,4 @@
-"""grades.csv, for a spreadsheet: a row for each student, a column for each part."""
+"""grades.csv, a table for a spreadsheet, with a row for each student and a column for each part."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 /* Marks the current section in the table of contents: the section at the top of the window. */
 
-const NARROW = matchMedia("(max-width: 52rem)"); // as in site.css, which then shows the lists above the text
+const NARROW = matchMedia("(max-width: 52rem)"); // In a window of this width, site.css shows the lists above the text.
 
-/** Close the lists in a narrow window, because there they would push the text out of the window. */
+/** Close the lists in a narrow window, because open lists would push the text out of the window. */
 export function foldLists() {
   const fold = () => document.querySelectorAll(":is(.chapters, .contents) details").forEach((list) => {
     list.open = !NARROW.matches;

@@ -1,4 +1,5 @@
-/* Sets the colours that the reader chose on an earlier page. It runs before the browser draws the page. */
+/* Sets the colours that the reader chose on an earlier page. This script runs before the browser draws the
+   page. */
 import { chosen, show } from "./theme.js";
 
 show(chosen());

@@ -37,7 +37,7 @@ async function copied(text, button) {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    return bySelection(text, button); // A page in a folder, or a page without https, has no clipboard.
+    return bySelection(text, button); // A page from a local folder, or a page without https, cannot use the clipboard.
   }
 }
 

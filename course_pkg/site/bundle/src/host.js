@@ -21,7 +21,7 @@ export function toAnchor() {
   if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView({ behavior: "instant" });
 }
 
-const NO_FRAMES = 200; // ms; the longest wait for a frame, because a hidden window gets no frames
+const NO_FRAMES = 200; // the longest wait for a frame in ms, because a hidden window gets no frames
 
 function painted() {
   return new Promise((resume) => {
@@ -30,7 +30,9 @@ function painted() {
   });
 }
 
-/** Return the decompressed states. They are a third of a page's size, and compressed less than a tenth. @param {string} text base64 */
+/** Return the decompressed states. Without compression, the states would be a third of a page's size; with
+ * compression, they are less than a tenth.
+ * @param {string} text base64 */
 async function unpacked(text) {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).json();

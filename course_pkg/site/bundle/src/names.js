@@ -1,6 +1,7 @@
 /* Gives the parts of panels unique names. */
 
-/** Add a number to a name that occurs again. A notebook may show two panels of a kind, but landmarks of a page need unique names. */
+/** Add a number to a name that occurs again. A notebook may show two panels of the same type, but the
+    landmarks of a page need unique names. */
 export function nameParts() {
   const seen = new Map();
   for (const part of document.querySelectorAll(".ros-panel[aria-label], .ros-panel :is(section, form, [role=region])[aria-label]")) {

@@ -1,9 +1,9 @@
-/* Searches all sections of the course. The texts are in a separate script that loads when a search begins, because a
-   page in a folder may add a script, but may not fetch a file. */
+/* Searches all sections of the course. The texts are in a separate script that loads when a search begins,
+   because a page from a local folder can load a script, but cannot fetch a file. */
 import MiniSearch from "minisearch";
 
-const MOST = 30; // results
-const AROUND = 70; // letters before and after the word that was found
+const MOST = 30; // maximum number of results
+const AROUND = 70; // number of letters that are shown before and after the found word
 const nonce = document.currentScript?.nonce ?? "";
 const here = document.currentScript?.src ?? "";
 
@@ -44,8 +44,8 @@ export function search() {
   input.addEventListener("input", () => finder.size && show());
 }
 
-/** Move through the field and the results with the up and down keys. Escape closes the dialog at once, because otherwise
-    the search field would only clear its text. */
+/** Move through the field and the results with the up and down keys. Escape closes the dialog at once,
+    because by default, Escape would only clear the search field. */
 function walk(event, dialog, input, results) {
   if (event.key === "Escape") {
     event.preventDefault();
@@ -95,7 +95,7 @@ function loadTexts() {
   });
 }
 
-/** The text around the first of `terms`: [before, the word, after]. */
+/** Return the text around the first search term that occurs, as [text before, term, text after]. */
 function excerpt(text, terms) {
   const low = text.toLowerCase();
   const places = terms.map((term) => [low.indexOf(term), term.length]).filter(([at]) => at >= 0);

@@ -1,5 +1,5 @@
-/* Light colours, dark colours, or the setting of the system. A page in a folder may have no storage: then the choice of
-   the reader is lost with the next page. */
+/* The page uses light colours, dark colours, or the setting of the system. A page from a local folder may
+   have no storage; then the next page does not know the reader's choice. */
 
 const KEY = "course-theme";
 export const THEMES = ["system", "light", "dark"];
@@ -25,11 +25,11 @@ function keep(theme) {
   try {
     localStorage.setItem(KEY, theme);
   } catch {
-    // Without storage, the choice holds only for this page.
+    // Without storage, the choice applies only to this page.
   }
 }
 
-/** Make each click on the button choose the next theme. @param {HTMLButtonElement} button */
+/** Make each click on the button select the next theme. @param {HTMLButtonElement} button */
 export function themeButton(button) {
   let theme = chosen();
   const say = () => {
