@@ -28,8 +28,9 @@ TIMES = 20
 BLANK = dict.fromkeys([f"05.{number}" for number in range(2, 9)], "")
 HEAD = "student,chapter,part,points,comment,answer\n"
 ROWS = "s01,05,Part 05.1,1.5,Well tried.,\ns02,05,Part 05.2,0.25,Read the goal again.,\n"
-# These files contain the moment of the run, so two runs write different files.
-TIMED = {".grading", "results", "junit.xml", "class.html"}
+# These files contain the moment of the run, or differences from an earlier run, so two runs write different
+# files.
+TIMED = {".grading", "results", "junit.xml", "class.html", "changes.csv"}
 
 
 def _run(folder: Path, out: Path, *words: str) -> subprocess.Popen[bytes]:
