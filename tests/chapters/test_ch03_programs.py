@@ -127,7 +127,10 @@ def test_all_waiting_calls_return_the_customer() -> None:
 @pytest.mark.usefixtures("detector")
 def test_impossible_patience_is_refused_with_the_range() -> None:
     """If the waiting time in the request is impossible, the error message contains the allowed range."""
-    words = "cannot process request: patience: a wait of .* s is not possible; expected seconds, from 0 to 60"
+    words = (
+        "cannot process request: patience: a wait of .* s is not possible; "
+        "expected a number of seconds from 0 to 60"
+    )
     for patience in (-1.0, math.nan, math.inf, 61.0):
         with pytest.raises(rospy.ServiceException, match=words):
             detect(patience=patience)
@@ -141,7 +144,7 @@ def test_number_of_waiting_calls_is_limited() -> None:
         waiting = [pool.submit(detect, patience=60.0) for _ in range(80)]
         eventually(lambda: sum(future.done() for future in waiting) >= 16, timeout=20)
         refused = [str(future.exception()) for future in waiting if future.done()]
-        assert [error for error in refused if "64 callers wait already" not in error] == []
+        assert [error for error in refused if "64 other clients are waiting" not in error] == []
         assert len(refused) == 16
         let_in(0.0)
         assert sum(future.exception(20) is None for future in waiting) == 64
@@ -158,7 +161,9 @@ def test_calls_fail_without_a_camera_and_recover(camera: NodeProcess, detector: 
         waiting = pool.submit(detect, first, 60.0)
         camera.kill()
         assert "no message from the camera for 2 s" in str(waiting.exception(15))
-    with pytest.raises(rospy.ServiceException, match="customers cannot be detected: does shop_camera run"):
+    with pytest.raises(
+        rospy.ServiceException, match="customers cannot be detected: check that shop_camera is running"
+    ):
         detect()
     with run("shop_camera"):
         eventually(lambda: _answers() and not detect().detected)
@@ -183,8 +188,8 @@ def test_detector_refuses_without_a_camera() -> None:
 @pytest.mark.parametrize(
     ("after", "stay", "words"),
     [
-        ([0.0, math.nan], 1.0, r"after\[1\]: nan s is not a possible time to wait"),
-        ([-1.0], 1.0, r"after\[0\]: -1 s is not a possible time to wait"),
+        ([0.0, math.nan], 1.0, r"after\[1\]: nan s is not a valid waiting time"),
+        ([-1.0], 1.0, r"after\[0\]: -1 s is not a valid waiting time"),
         ([0.0], math.inf, "stay: inf s"),
         ([0.0] * 1001, 1.0, "1001 customers are too many"),
     ],

@@ -206,7 +206,7 @@ replace('\n    rospy.init_node("SERVER_NODE")', "")
 replace("SERVER_NODE", "server")
 # %% 07.4 wrong: uses an anonymous node | hint: without anonymous=True
 replace('"SERVER_NODE"', '"SERVER_NODE", anonymous=True')
-# %% 07.4 wrong: passes the response class to rospy.Service | hint: Pass the class of the type
+# %% 07.4 wrong: passes the response class to rospy.Service | hint: Pass the class of the service type
 replace('"/getGeometry", geometry,', '"/getGeometry", geometryResponse,')
 # %% 07.4 wrong: misspells a variable | hint: The error occurred in line … of server.py
 replace("geometry, handle_geometry)", "geometry, handle_box)")
@@ -318,7 +318,7 @@ replace(", timeout=5", "")
 replace("timeout=5", "timeout=13")
 # %% 07.5 wrong: does not wait for the service | hint: The client did not wait
 replace('        rospy.wait_for_service("/getGeometry", timeout=5)\n', "")
-# %% 07.5 wrong: does not catch the timeout | hint: wait_for_service raises rospy.ROSException after its timeout.
+# %% 07.5 wrong: does not catch the timeout | hint: wait_for_service raises rospy.ROSException when the timeout is over
 replace("(rospy.ServiceException, rospy.ROSException)", "rospy.ServiceException")
 # %% 07.5 wrong: exits with status 0 if there is no server | hint: The exit status has to be 1
 based_on("writes a node with separate steps")
@@ -494,7 +494,7 @@ replace("if request.number not in STATES", "if not request.number in (1, 2)")
 based_on("uses conditions and a main function")
 replace('response.state = "OFF"', "pass")
 replace('response.state = "ON"', "pass")
-# %% 07.9 wrong: uses small letters | hint: The letters of the state
+# %% 07.9 wrong: uses small letters | hint: The state contains small letters
 replace('{0: "OFF", 1: "ON"}', '{0: "off", 1: "on"}')
 # %% 07.9 wrong: exchanges the states | hint: The two states are exchanged
 replace('{0: "OFF", 1: "ON"}', '{0: "ON", 1: "OFF"}')

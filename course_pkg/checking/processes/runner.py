@@ -123,7 +123,7 @@ def _not_attempted(part: Part, channel: Channel) -> str:
             alike = reply.get("alike")
             names = " and ".join(map(str, alike)) if isinstance(alike, list) else ""
             found = f" A similar name exists: {names}. Is this the name in the exercise?" if names else ""
-            return f"{shown} is not defined. Run the cell above first.{found}"
+            return f"{shown} is not defined. First run the cell above.{found}"
         for reply in there:
             require_current(reply)
     return _unchanged(part, channel)
@@ -144,12 +144,12 @@ def _unchanged(part: Part, channel: Channel) -> str:
 
 def _too_slow(part: Part, context: CheckContext) -> Assertion:
     return Assertion(
-        f"it ends within {part.deadline:g} s",
+        f"the check ends within {part.deadline:g} s",
         holds=False,
         actual=f"still {context.doing}" if context.doing else "",
         hint=(
-            "The code is in an endless loop, or waits without a time limit. End the loop, or give "
-            "the wait a time limit."
+            "Your code is in an endless loop, or it waits without a time limit. End the loop, or set "
+            "a time limit for the wait."
         ),
     )
 

@@ -54,7 +54,9 @@ class Detector:
         # This test refuses NaN, because each comparison with NaN is False.
         if not 0.0 <= request.patience <= LONGEST:
             message = f"a wait of {request.patience:g} s is not possible"
-            wrong = FieldError("patience", request.patience, f"seconds, from 0 to {LONGEST:g}", message)
+            wrong = FieldError(
+                "patience", request.patience, f"a number of seconds from 0 to {LONGEST:g}", message
+            )
             raise rospy.ServiceException(str(wrong))
         with self._place():
             customer = self._wait(request.after, request.patience)
@@ -71,7 +73,7 @@ class Detector:
             return self._watch.wait(after, patience, SILENCE)
         except CameraSilent:
             silence = f"no message from the camera for {SILENCE:g} s"
-            message = f"{silence}, so customers cannot be detected: does shop_camera run?"
+            message = f"{silence}, so customers cannot be detected: check that shop_camera is running"
             raise rospy.ServiceException(message) from None
 
     @contextmanager
@@ -81,7 +83,7 @@ class Detector:
         Raises ServiceException if too many callers are waiting.
         """
         if not self._places.acquire(blocking=False):
-            raise rospy.ServiceException(f"{CALLERS} callers wait already: call again later")
+            raise rospy.ServiceException(f"{CALLERS} other clients are waiting, so call again later")
         try:
             yield
         finally:
@@ -98,5 +100,5 @@ def main() -> None:
     wait_until(detector.has_data, SILENCE)
     with undisturbed():
         rospy.Service("detect_customer", DetectCustomer, detector.handle_detect)
-    rospy.loginfo("Looking out for customers")
+    rospy.loginfo("The detector is ready")
     rospy.spin()
