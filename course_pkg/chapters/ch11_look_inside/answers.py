@@ -263,6 +263,10 @@ def by_proxy(uri, service, *sides):
     response = proxy(*sides)
     return response.area, response.volume""")
 
+# %% 11.3 wrong: reads the MD5 sum of the server | hint: Your function read a field
+replace('\n        sock.sendall(struct.pack("<I", len(body)) + body)', """
+        assert theirs["md5sum"] == geometry._md5sum
+        sock.sendall(struct.pack("<I", len(body)) + body)""")
 # %% 11.3 wrong: omits the length before the request | hint: The request has to start
 replace('theirs = read_header … ", answer)', """receive(sock, size)
         sock.sendall(struct.pack("<3f", length, width, height))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+
 from course_pkg.chapters.ch08_use_existing_services.checks.example_calls import ExampleCall, example_calls
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
@@ -9,10 +11,16 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.result import Result
 
-IS_MESSAGE = """
-def is_message(function, *args):
-    return hasattr(function(*args), "_slot_types")
-"""  # A check receives a message as a dict, so only code in the kernel can distinguish a message from a dict.
+SERIALISED = """
+import io
+
+
+def serialised(function, *args):
+    response, data = function(*args), io.BytesIO()
+    if hasattr(response, "_slot_types"):
+        response.serialize(data)
+    return list(data.getvalue())
+"""  # A check receives a message as a dict, but code in the kernel can serialise only a message.
 ERRORS = [
     (
         matches("'str' object has no attribute '_request_class'"),
@@ -80,19 +88,23 @@ def call_of_any_type(context: CheckContext) -> None:
     former = context.serve(name, "std_srvs/Trigger", lambda _: {"success": True})
     context.run("call_any", name, {}, hints=ERRORS).returned()
     former.leave()
-    server = context.serve(name, "std_srvs/SetBool", lambda _: {"success": True})
+    answer = context.service_class("std_srvs/SetBool")._response_class(True, context.random.word())
+    server = context.serve(name, "std_srvs/SetBool", lambda _: answer)
     strays = context.random.shuffled(["dat", context.random.word()])
     for fields, stray in zip(({}, {"data": True}), strays, strict=True):
         wrong = context.run("call_any", name, {**fields, stray: True})
         _is_an_error(context, wrong, server, stray)
-    context.prepare(IS_MESSAGE)
+    context.prepare(SERIALISED)
     whole = context.run(
-        "is_message", Its("call_any"), name, {"data": True}, worded="call_any()", hints=ERRORS
-    )
-    context.expect(
+        "serialised", Its("call_any"), name, {"data": True}, worded="call_any()", hints=ERRORS
+    ).returned()
+    data = io.BytesIO()
+    answer.serialize(data)
+    context.require(
         "call_any() returns the response",
+        holds=whole == list(data.getvalue()),
         expected="a response",
-        actual="a response" if whole.returned() else "an object of a different type with the same values",
+        actual="an object of a different type, or with other values",
         hints="The function returned a dict or a similar object. Return the object that the proxy returns.",
     )
 
