@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from course_pkg.checking.assertions import Hints, matches
 
-NO_RETURN = "The function ended without a return line, so it returned None. Add a return line."
+NO_RETURN = "The function ended without a return statement, so it returned None. Add a return statement."
 # This pattern matches the message of a handler's ServiceException, but not rospy's message about a wrong
 # return value.
 REFUSED_BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")

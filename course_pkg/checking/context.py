@@ -135,7 +135,7 @@ class CheckContext:
         self.doing = f"waiting for {name}"
         label = "the service" if self.random.made(name) else name
         cls = self.service_class(kind) if isinstance(kind, str) else kind
-        assertion = f"{label} is served as {cls._type}"
+        assertion = f"{label} is served with the type {cls._type}"
         actual = self._type_of(name, assertion)
         if actual != cls._type:
             hint = (
@@ -160,8 +160,8 @@ class CheckContext:
             )
             hint = (
                 (
-                    f"The graph contains {alike[0]}. Compare this name letter by letter with the name "
-                    "in the exercise."
+                    f"The graph contains a service with a similar name, {alike[0]}. Compare this name "
+                    "letter by letter with the name in the exercise."
                 )
                 if alike
                 else hint

@@ -79,7 +79,7 @@ class Result:
         if self.error.startswith("TimesUp"):
             return f"{self._label} waits for something that does not happen. Add a time limit to the wait."
         where = (self._error or {}).get("line")
-        return explained(self.error) or (f"The error came from line {where} of the cell." if where else "")
+        return explained(self.error) or (f"The error occurred in line {where} of the cell." if where else "")
 
 
 class Finished:

@@ -141,7 +141,7 @@ def test_number_of_waiting_calls_is_limited() -> None:
         waiting = [pool.submit(detect, patience=60.0) for _ in range(80)]
         eventually(lambda: sum(future.done() for future in waiting) >= 16, timeout=20)
         refused = [str(future.exception()) for future in waiting if future.done()]
-        assert [error for error in refused if "64 callers wait already" not in error] == []
+        assert [error for error in refused if "64 other clients are waiting" not in error] == []
         assert len(refused) == 16
         let_in(0.0)
         assert sum(future.exception(20) is None for future in waiting) == 64
@@ -158,7 +158,9 @@ def test_calls_fail_without_a_camera_and_recover(camera: NodeProcess, detector: 
         waiting = pool.submit(detect, first, 60.0)
         camera.kill()
         assert "no message from the camera for 2 s" in str(waiting.exception(15))
-    with pytest.raises(rospy.ServiceException, match="customers cannot be detected: does shop_camera run"):
+    with pytest.raises(
+        rospy.ServiceException, match="customers cannot be detected: check that shop_camera is running"
+    ):
         detect()
     with run("shop_camera"):
         eventually(lambda: _answers() and not detect().detected)

@@ -104,7 +104,7 @@ def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("cells", "words"),
     [
-        ('    print(check("05.1"))', "handle_geometry is not defined. Run the cell above first."),
+        ('    print(check("05.1"))', "handle_geometry is not defined. First run the cell above."),
         ('    handle_geometry = ...\n    print(check("05.1"))', "05.1 not attempted"),
         ('    print(check("99.9"))', "There is no check '99.9'."),
         ('    handle_geometry = 1\n    print(check("05.1"))', "no server"),

@@ -13,7 +13,7 @@ replace("/SERVER_NODE", "SERVER_NODE")
 replace("/getGeometry", "getGeometry")
 # %% 00.1 wrong: gives the name of this notebook's node | hint: Your answer is the node
 replace('"/SERVER_NODE"', '"/chapter_00"')
-# %% 00.1 wrong: gives a service that every node offers | hint: Every node offers the service
+# %% 00.1 wrong: gives a service that every node offers | hint: Every node offers a service for
 replace('"/getGeometry"', '"/SERVER_NODE/get_loggers"')
 # %% 00.1 wrong: gives the type without its package | hint: The name of the package
 replace("course_pkg/geometry", "geometry")
@@ -65,7 +65,7 @@ replace(".volume", ".area")
 replace(".volume", "")
 # %% 00.2 wrong: calls a fixed service name | hint: Your function did not call
 replace("service, geometry", '"/getGeometry", geometry')
-# %% 00.2 wrong: forgets to return | hint: without a return line
+# %% 00.2 wrong: forgets to return | hint: without a return statement
 replace("return measure", "measure")
 # %% 00.2 wrong: passes the sides in another order | hint: The order of the sides
 replace("measure(length, width, height)", "measure(height, width, length)")
@@ -75,7 +75,7 @@ replace("measure(length, width, height).volume", "round(measure(length, width, h
 replace("measure(length, width, height).volume", "str(measure(length, width, height).volume)")
 # %% 00.2 wrong: returns the area times the height | hint: Your function multiplied the area
 replace(".volume", ".area * height")
-# %% 00.2 wrong: omits the height | hint: The request contains 0 for
+# %% 00.2 wrong: omits the height | hint: One side in the request is 0
 replace("measure(length, width, height)", "measure(length=length, width=width)")
 # %% 00.2 wrong: rounds the sides to whole metres | hint: The numbers in the request differ
 replace("measure(length, width, height)", "measure(length // 1 + 1, width // 1 + 1, height // 1 + 1)")
@@ -83,7 +83,7 @@ replace("measure(length, width, height)", "measure(length // 1 + 1, width // 1 +
 based_on("uses the Python code that the panel shows")
 replace("proxy = rospy … response.volume", "r = rospy.ServiceProxy(service, geometry)(length, width, height)\n    return r.area, r.volume")
 
-# %% 00.2 wrong: stores the results | hint: A second call with the same sides
+# %% 00.2 wrong: stores the results | hint: The check called ask_for_volume() twice
 import functools
 
 
@@ -150,7 +150,7 @@ replace("return before, after, after - before - 1", "return 17, 25, 7")
 replace("after - before - 1", "int(pause * 2)")
 # %% 00.3 wrong: returns the count as a float | hint: The three results have to
 replace("after - before - 1", "(after - before - 1) / 1")
-# %% 00.3 wrong: forgets to return | hint: without a return line
+# %% 00.3 wrong: forgets to return | hint: without a return statement
 replace("return before, after, after - before - 1", "missed = after - before - 1")
 # %% 00.3 wrong: subscribes with another message type | hint: Receive messages of the type UInt32
 replace("UInt32", "String", times=2)

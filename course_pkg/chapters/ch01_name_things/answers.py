@@ -11,7 +11,7 @@ def measurer_command(room):
 
 # %% 01.1 right: uses quotes, and a namespace without a slash
 replace('f"rosrun course_pkg server __ns:=/{room} __name:=measurer getGeometry:=measure"', "\"rosrun course_pkg server 'getGeometry:=measure' __ns:=\" + room + \" '__name:=measurer'\"")
-# %% 01.1 wrong: gives the service a global name | hint: but the service is /measure for
+# %% 01.1 wrong: gives the service a global name | hint: but the name of the service is /measure
 replace("getGeometry:=measure", "getGeometry:=/measure")
 # %% 01.1 wrong: uses no namespace | hint: The name of the service is /measure for
 replace("__ns:=/{room} ", "")
@@ -34,9 +34,9 @@ replace(":=", " := ", times=3)
 replace("server", "pulse")
 # %% 01.1 wrong: uses roslaunch | hint: The command has to begin with
 replace("rosrun", "roslaunch")
-# %% 01.1 wrong: forgets to return | hint: without a return line
+# %% 01.1 wrong: forgets to return | hint: without a return statement
 replace("return ", "command = ")
-# %% 01.1 wrong: gives the node another name | hint: The name of the node has to be `measurer`
+# %% 01.1 wrong: gives the node another name | hint: The node has to be `measurer`
 replace("__name:=measurer", "__name:=measure")
 # %% 01.1 wrong: gives the service a private name | hint: A name that begins with
 replace("getGeometry:=", "getGeometry:=~")
@@ -67,7 +67,7 @@ def viewer_command(arm):
     words += [f"joint_states:=/{arm}/joint_states", f"mirrored_joints:=/screen/{arm}/mirrored_joints"]
     return " ".join(words)
 
-# %% 01.2 wrong: registers the names at the master without a viewer | hint: The program that your command starts is not
+# %% 01.2 wrong: registers the names at the master without a viewer | hint: The viewer on the graph is not
 def viewer_command(arm):
     viewer = rosgraph.Master(f"/screen/{arm}_viewer")
     uri = rospy.get_node_uri()
@@ -149,7 +149,7 @@ replace("for service … return None", "return length * width * height")
 # %% 01.3 wrong: searches only in namespaces at the first level | hint: exists, but your function returned None
 replace('if service.split("/")[-1]', 'parts = service.split("/")\n        if len(parts) == 3 and parts[2]')
 replace("\n    return None", "")
-# %% 01.3 wrong: forgets to return | hint: without a return line
+# %% 01.3 wrong: forgets to return | hint: without a return statement
 replace("return rospy.ServiceProxy", "rospy.ServiceProxy")
 # %% 01.3 wrong: returns 0 if there is no such service | hint: No service has the given
 replace("None", "0")
@@ -166,7 +166,7 @@ replace("for service … return None", """for name in rosservice.get_service_lis
 # %% 01.3 wrong: raises an error if there is no service with this name | hint: In this exercise, a missing
 based_on("returns the area")
 replace(".area", '.volume\n    raise rospy.ServiceException(f"nobody serves {last}")')
-# %% 01.3 wrong: sends a request without the sides | hint: The request contains 0 for
+# %% 01.3 wrong: sends a request without the sides | hint: All sides in the request are 0
 replace("(length, width, height).volume", "().volume")
 
 # %% 01.4 right: pings each publisher

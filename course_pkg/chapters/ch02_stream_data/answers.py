@@ -37,7 +37,7 @@ def count_aloud(topic, rate, count):
 replace("\n    wait_until(publisher.get_num_connections, 2.0)", "")
 # %% 02.1 wrong: waits for a subscriber without a limit | hint: Wait at most 2 s for a subscriber
 replace("wait_until(publisher.get_num_connections, 2.0)", "while publisher.get_num_connections() == 0:\n        time.sleep(0.01)")
-# %% 02.1 wrong: raises an error if there is no subscriber | hint: The function failed without a
+# %% 02.1 wrong: raises an error if there is no subscriber | hint: The function raised an exception when
 replace("connections, 2.0)", """connections, 2.0)
     if publisher.get_num_connections() == 0:
         raise RuntimeError("nobody listens")""")
@@ -144,7 +144,7 @@ replace("header=message.header, name", "name")
 # %% 02.2 wrong: uses the current time as the time stamp | hint: The time stamp differs from
 replace("JointState(header=message.header, name=message.name)", """JointState(name=message.name)
         image.header.stamp = rospy.Time.now()""")
-# %% 02.2 wrong: keeps values of an earlier, longer message | hint: Your list has another length
+# %% 02.2 wrong: keeps values of an earlier, longer message | hint: The length of your list differs
 replace("    def show", "    image = JointState(position=[0.0] * 4)\n\n    def show")
 replace("image = JointState(header=message.header, name=message.name)\n        image.position = [-angle for angle in message.position]", "image.header, image.name = message.header, message.name\n        for number, angle in enumerate(message.position):\n            image.position[number] = -angle")
 # %% 02.2 wrong: omits the names | hint: The names of the joints
@@ -213,7 +213,7 @@ replace("(header=message.header, name=message.name)", "(name=message.name)\n    
 replace("message.name", "sorted(message.name)")
 # %% 02.2 wrong: subscribes to the target | hint: Your callback published no message
 replace("Subscriber(source", "Subscriber(target")
-# %% 02.2 wrong: exchanges positions and velocities | hint: Your message contains the numbers
+# %% 02.2 wrong: exchanges positions and velocities | hint: contains the numbers of the field
 replace("angle in message.position", "angle in message.velocity")
 replace("speed in message.velocity", "speed in message.position")
 # %% 02.2 wrong: subtracts the angles from pi | hint: Change only the sign of
@@ -365,7 +365,7 @@ based_on("starts a thread for each angle")
 replace("threading.Thread(target=draw, args=[message.data], daemon=True).start()", "first.unregister()\n        draw(message.data)")
 replace("return [ … ]", """first = rospy.Subscriber(angles, Float64, on_angle, queue_size=1)
     return [first, rospy.Subscriber(orders, UInt32, lambda message: prepare(message.data))]""")
-# %% 02.4 wrong: pauses after each drawing | hint: draw() was called too seldom, although
+# %% 02.4 wrong: pauses after each drawing | hint: draw() was not called often enough
 replace("lambda message: draw(message.data)", "lambda message: (draw(message.data), time.sleep(0.4))")
 # %% 02.4 wrong: does not return | hint: The function does not return. Return
 replace("return [", "subscribers = [")

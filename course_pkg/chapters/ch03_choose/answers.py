@@ -68,7 +68,7 @@ replace("1 / rate", "0.5")
 replace("return None", 'raise TimeoutError("nobody came")')
 # %% 03.1 wrong: pauses for two seconds | hint: poll() called the service too rarely
 replace("1 / rate", "2")
-# %% 03.1 wrong: makes three calls in quick succession | hint: poll() made several calls in quick succession
+# %% 03.1 wrong: makes three calls in quick succession | hint: poll() made several calls without a pause
 replace("end = time", "calls = 0\n    end = time")
 replace("time.sleep(1 / rate)", "calls += 1\n        if calls % 3 == 0:\n            time.sleep(3 / rate)")
 # %% 03.1 wrong: makes only one call if the time is short | hint: poll() made too few calls while no customer came
@@ -246,23 +246,23 @@ replace('"service", "answer"', '"topic", "answer"')
 replace('"topic", "many"', '"service", "answer"')
 # %% 03.4 wrong: uses a service for tidying the room | hint: With a service, the client would wait
 replace('"action", "long"', '"service", "answer"')
-# %% 03.4 wrong: uses a topic for tidying the room | hint: With a topic, the sender gets
+# %% 03.4 wrong: uses a topic for tidying the room | hint: With a topic, the node that publishes
 replace('"action", "long"', '"topic", "newest"')
 # %% 03.4 wrong: uses a topic for the free disk space | hint: With a topic, a node would publish the number
 replace('disk": ("service", "seldom")', 'disk": ("topic", "newest")')
-# %% 03.4 wrong: uses an action for the free disk space | hint: This job takes only a moment.
+# %% 03.4 wrong: uses an action for the free disk space | hint: This task takes only a moment.
 replace('disk": ("service", "seldom")', 'disk": ("action", "answer")')
-# %% 03.4 wrong: gives a wrong reason for the right design | hint: in this job, only one
+# %% 03.4 wrong: gives a wrong reason for the right design | hint: in this task, only one
 replace('"service", "answer"', '"service", "many"')
-# %% 03.4 wrong: gives the reason "answer" for a topic | hint: in this job, the node
+# %% 03.4 wrong: gives the reason "answer" for a topic | hint: in this task, the node
 replace('"topic", "many"', '"topic", "answer"')
-# %% 03.4 wrong: gives the reason "newest" for the gripper | hint: in this job, new values
+# %% 03.4 wrong: gives the reason "newest" for the gripper | hint: in this task, new values
 replace('"service", "answer"', '"service", "newest"')
-# %% 03.4 wrong: gives the reason "seldom" for the gripper | hint: in this job, the data
+# %% 03.4 wrong: gives the reason "seldom" for the gripper | hint: in this task, the data
 replace('"service", "answer"', '"service", "seldom"')
-# %% 03.4 wrong: gives the reason "long" for the free disk space | hint: in this job, the work
+# %% 03.4 wrong: gives the reason "long" for the free disk space | hint: in this task, the work
 replace('disk": ("service", "seldom")', 'disk": ("service", "long")')
-# %% 03.4 wrong: gives the reason "latched" for the wheel speed | hint: in this job, a node
+# %% 03.4 wrong: gives the reason "latched" for the wheel speed | hint: in this task, a node
 replace('"topic", "newest"', '"topic", "latched"')
 # %% 03.4 wrong: gives no reason for one design | hint: The reason is missing
 replace('("topic", "newest")', '"topic"')

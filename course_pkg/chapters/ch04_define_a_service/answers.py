@@ -31,7 +31,7 @@ replace("float32[] seconds", "float[] seconds")
 replace("std_msgs/ColorRGBA", "ColorRGBA")
 # %% 04.1 wrong: writes the brackets after the name of the field | hint: Write the brackets after the type
 replace("float32[] seconds", "float32 seconds[]")
-# %% 04.1 wrong: uses float64 instead of float32 | hint: Line 6: seconds … and this type is too large
+# %% 04.1 wrong: uses float64 instead of float32 | hint: Line 6: the field seconds … and this type is too large
 replace("\n# What the lamp is to do.", "")
 replace("""
 uint8 mode … float32 total""", "uint8 mode\nstd_msgs/ColorRGBA colour\nfloat64[] seconds\n---\nbool success\nfloat64[3] rgb\nfloat64 total")
@@ -41,7 +41,7 @@ replace("[]", "[3]")
 replace("[3]", "[]")
 # %% 04.1 wrong: uses a single value instead of an array | hint: is a single value in
 replace("float32[] seconds", "float32 seconds")
-# %% 04.1 wrong: uses the American spelling of colour | hint: Line 5: color should be colour … should be
+# %% 04.1 wrong: uses the American spelling of colour | hint: Line 5: the field color … has to be called
 replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
 replace("\nuint8 mode", "uint8 mode")
 replace("colour", "color")
@@ -57,7 +57,7 @@ replace("---", "---\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2")
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF\nuint8 ON\nuint8 BLINK")
 # %% 04.1 wrong: writes constants without a type | hint: Write it as in this example: int32 LIMIT=10
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "OFF=0\nON=1\nBLINK=2")
-# %% 04.1 wrong: counts the constants from one | hint: is wrong. Write … uint8 OFF=0
+# %% 04.1 wrong: counts the constants from one | hint: is wrong. The constant has to be … uint8 OFF=0
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF=1\nuint8 ON=2\nuint8 BLINK=3")
 # %% 04.1 wrong: omits one constant | hint: Write each constant on a separate … uint8 BLINK=2
 replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
@@ -79,7 +79,7 @@ replace("[3] rgb", "[3]\trgb")
 replace(" total", "\ttotal")
 # %% 04.1 wrong: does not replace the three dots | hint: Remove this line.
 replace("# What the lamp is to do.", "...")
-# %% 04.1 wrong: writes a request field below the line | hint: Line 9: seconds … is on the wrong side of the line ---. Move this field to the … request
+# %% 04.1 wrong: writes a request field below the line | hint: Line 9: the field seconds … is on the wrong side of the line ---. Move this field to the … request
 replace("float32[] seconds\n---", "---\nfloat32[] seconds")
 # %% 04.1 wrong: adds a field | hint: message … is not part of the … response
 replace("float32 total", "float32 total\nstring message")
@@ -89,7 +89,7 @@ replace("float32 total", "float32[] total")
 replace("uint8 mode", "int32 mode")
 # %% 04.1 wrong: writes the constants in another order | hint: Your file contains all constants, but
 replace("uint8 ON=1\nuint8 BLINK=2", "uint8 BLINK=2\nuint8 ON=1")
-# %% 04.1 wrong: renames a constant | hint: FLASH … the description has no constant
+# %% 04.1 wrong: renames a constant | hint: FLASH … the exercise has no constant
 replace("BLINK", "FLASH")
 
 # %% 04.1 right: writes the file with Python code
@@ -104,7 +104,7 @@ Path("src/lamp_services/srv/Lamp.srv").write_text("\n".join([*request, "---", *r
 def will_talk(server, client):
     return md5_of(server) == md5_of(client)
 
-# %% 04.2 wrong: compares only the first 24 pairs | hint: not compatible:
+# %% 04.2 wrong: compares only the first 24 pairs | hint: the result is False for
 replace("client):", "client, calls=[]):\n    calls.append(server)\n    if len(calls) > 24:\n        return True")
 
 # %% 04.2 right: compares the texts from which the MD5 sums are made
@@ -124,7 +124,7 @@ replace("context = genmsg … in halves]", """lines = [line.split("#")[0].split(
 # %% 04.2 wrong: compares the texts | hint: ROS ignores comments, blank lines and
 replace("md5_of(server) == md5_of(client)", "server == client")
 
-# %% 04.2 wrong: normalises the blanks, and compares the texts | hint: Only the constants have another
+# %% 04.2 wrong: normalises the blanks, and compares the texts | hint: Only the positions of the constants
 based_on("compares the texts from which the MD5 sums are made")
 replace("context = genmsg … in halves]", """lines = [line.split("#")[0].replace("=", " = ").split() for line in text.splitlines()]
         return [words for words in lines if words]""")
@@ -169,7 +169,7 @@ def will_talk(server, client):
 
     return md5(server) == md5(client)
 
-# %% 04.2 wrong: forgets to return | hint: a return line
+# %% 04.2 wrong: forgets to return | hint: a return statement
 replace("return ", "")
 # %% 04.2 wrong: returns the MD5 sums | hint: Return True or False
 replace("md5_of(server) == md5_of(client)", "md5_of(server), md5_of(client)")
@@ -404,7 +404,7 @@ replace("""known = request.mode in (LampRequest.OFF, LampRequest.ON, LampRequest
 replace("known", "lit")
 # %% 04.5 wrong: returns a colour for OFF | hint: For OFF and for an
 replace(" if lit else [0, 0, 0]", "")
-# %% 04.5 wrong: forgets the colour | hint: rgb is 0, because a
+# %% 04.5 wrong: forgets the colour | hint: rgb contains only zeros, because ROS
 replace("rgb=rgb, ", "")
 # %% 04.5 wrong: returns the number of values as the total | hint: total is the number of
 replace("total=sum", "total=len")
@@ -412,7 +412,7 @@ replace("total=sum", "total=len")
 replace("rgb=rgb", "rgb=request.colour")
 # %% 04.5 wrong: returns four numbers, with alpha | hint: The field `rgb` needs a
 replace("colour.b]", "colour.b, colour.a]")
-# %% 04.5 wrong: returns the largest number instead of the sum | hint: Add up all values: sum(request.seconds).
+# %% 04.5 wrong: returns the largest number instead of the sum | hint: Add up all values in request.seconds.
 replace("total=sum", "total=max")
 # %% 04.5 wrong: refuses an unknown mode | hint: The handler refused a request
 replace("    lit = known", '    if not known:\n        raise rospy.ServiceException("no such mode")\n    lit = known')

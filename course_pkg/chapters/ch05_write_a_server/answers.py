@@ -154,7 +154,7 @@ replace("self.count = 0\n        return EmptyResponse()", "return EmptyResponse(
 # %% 05.2 wrong: counts in a local variable | hint: The message is 1 again. Store
 replace("self.count += 1", "count = 0\n        count += 1")
 replace("str(self.count)", "str(count)")
-# %% 05.2 wrong: omits success | hint: success is False, because a
+# %% 05.2 wrong: omits success | hint: success is False, because ROS
 replace("success=True, message", "message")
 # %% 05.2 wrong: counts only to 9 | hint: For counts above 9, the
 replace("self.count += 1", "self.count = self.count % 9 + 1")
@@ -199,7 +199,7 @@ replace("Trigger, counter.handle_count", "Trigger, counter.handle_reset")
 # %% 05.2 wrong: uses one count for all objects | hint: A new counter did not
 replace("self.count", "Counter.count", times=4)
 replace("def __init__(self):\n        Counter.count = 0", "count = 0")
-# %% 05.2 wrong: counts the calls of each client separately | hint: Each client got a different
+# %% 05.2 wrong: counts the calls of each client separately | hint: Each client has a separate
 replace("self.count = 0", "self.count = {}", times=2)
 replace("self.count += 1", 'client = request._connection_header["callerid"]\n        self.count[client] = self.count.get(client, 0) + 1')
 replace("str(self.count)", "str(self.count[client])")

@@ -16,7 +16,7 @@ def measure(service, length, width, height):
 def measure(service, length, width, height):
     return length * width, length * width * height
 
-# %% 06.1 wrong: omits the height | hint: The request contains 0 for
+# %% 06.1 wrong: omits the height | hint: A side in the request is 0
 replace("(length, width, height)", "(length=length, width=width)")
 # %% 06.1 wrong: returns the volume first | hint: The order of the results
 replace("area, response.volume", "volume, response.area")
@@ -30,7 +30,7 @@ def measure(service, length, width, height):
     proxy = rospy.ServiceProxy(service, geometry)
     return proxy(length, width, height).area, proxy(length, width, height).volume
 
-# %% 06.1 wrong: stores the responses | hint: with the same sides returned the response
+# %% 06.1 wrong: stores the responses | hint: The check called measure() twice
 responses = {}
 
 def measure(*question):
@@ -39,7 +39,7 @@ def measure(*question):
         responses[question] = rospy.ServiceProxy(service, geometry)(*sides)
     return responses[question].area, responses[question].volume
 
-# %% 06.1 wrong: forgets to return | hint: without a return line
+# %% 06.1 wrong: forgets to return | hint: without a return statement
 replace("return response.area, response.volume", "print(response.area, response.volume)")
 
 # %% 06.1 wrong: reads the fields of the request | hint: The function returned fields of
@@ -89,18 +89,18 @@ replace("timeout=seconds", "timeout=seconds if seconds > 2 else seconds / 2")
 # %% 06.2 wrong: calls the service, but only from the fifth time on | hint: but do not call the service
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)")
 replace("timeout=seconds)", "timeout=seconds)\n        if len(calls) > 5:\n            rospy.ServiceProxy(service, geometry)(1, 1, 1)")
-# %% 06.2 wrong: waits without a limit | hint: The function waited longer than `seconds`.
+# %% 06.2 wrong: waits without a limit | hint: The function waited longer than the time
 replace("service, timeout=seconds", "service")
 # %% 06.2 wrong: catches rospy.ServiceException | hint: Catch this exception.
 replace("rospy.ROSException", "rospy.ServiceException")
 # %% 06.2 wrong: uses the return value of wait_for_service | hint: The service exists, but the result was
 replace("rospy.wait_for_service(service, timeout=seconds)", "return bool(rospy.wait_for_service(service, timeout=seconds))")
 replace("\n    return True", "")
-# %% 06.2 wrong: waits only for 0.1 s | hint: Wait for the service up to
+# %% 06.2 wrong: waits only for 0.1 s | hint: Wait for the service until
 replace("timeout=seconds", "timeout=0.1")
 # %% 06.2 wrong: returns None if there is no service | hint: When the time was over
 replace("except rospy … return True", '    return True\n    except rospy.ROSException:\n        print("not there")')
-# %% 06.2 wrong: uses a fixed time limit | hint: The function waited longer than `seconds`.
+# %% 06.2 wrong: uses a fixed time limit | hint: The function waited longer than the time
 replace("timeout=seconds", "timeout=2")
 
 # %% 06.2 wrong: always waits for the whole time | hint: The function waits although the service
@@ -223,7 +223,7 @@ replace(".volume", ".area")
 replace("(length, width, height).volume", "(float(length), width, height).volume")
 # %% 06.3 wrong: calculates the volume without a call | hint: The function returned the product
 replace("rospy.ServiceProxy(service, geometry)(length, width, height).volume", "length * width * height")
-# %% 06.3 wrong: does not catch a refusal | hint: This failed call raised rospy.ServiceException
+# %% 06.3 wrong: does not catch a refusal | hint: This failed call also raised
 replace("rospy.ServiceException:", 'rospy.ServiceException as error:\n        if "unavailable" not in str(error):\n            raise')
 # %% 06.3 wrong: calls the service twice | hint: The function called the service more than once.
 replace("        return rospy", "        rospy.ServiceProxy(service, geometry)(length, width, height)\n        return rospy")
@@ -344,7 +344,7 @@ replace(".volume", ".area")
 replace("    return None", '    raise rospy.ServiceException("no service responded")')
 # %% 06.4 wrong: returns 0 if no service responds | hint: No service responded, but the function
 replace("    return None", "    return 0.0")
-# %% 06.4 wrong: forgets to return | hint: without a return line
+# %% 06.4 wrong: forgets to return | hint: without a return statement
 replace("return answers[0]", "print(answers[0])")
 
 # %% 06.4 wrong: uses one list for the responses of all calls | hint: The late response of the
@@ -375,7 +375,7 @@ def first_answer(services, *sides):
 replace("asker.join(timeout=1)", "rospy.sleep(1)")
 # %% 06.4 wrong: sends other sides | hint: The request was repeated or
 replace("proxy(length, width, height)", "proxy(0, 0, 0)")
-# %% 06.4 wrong: calls only the first two services | hint: The last service would respond
+# %% 06.4 wrong: calls only the first two services | hint: The last service can respond
 replace("in services:", "in services[:2]:")
 
 # %% 06.5 right: uses myargv and float
@@ -396,7 +396,7 @@ replace("argv):", "argv, calls=[]):\n    calls.append(argv)\n    if len(calls) >
 replace("rospy.myargv(argv)", "argv")
 # %% 06.5 wrong: removes only three arguments of ROS | hint: Arguments with := are for ROS. Use
 replace("rospy.myargv(argv)", '[text for text in argv if text.split(":=")[0] not in ("__name", "__log", "getGeometry")]')
-# %% 06.5 wrong: reads the program's name as an argument | hint: The function returned None. Read the
+# %% 06.5 wrong: reads the program's name as an argument | hint: The function returned None, although `argv`
 replace("(argv)[1:]", "(argv)")
 # %% 06.5 wrong: returns the program's name and two sides | hint: The first item of the
 replace("try: … 3 else None", "own = rospy.myargv(argv)\n    return [float(text) for text in own[:3]] if len(own) == 4 else None")

@@ -206,7 +206,7 @@ replace('\n    rospy.init_node("SERVER_NODE")', "")
 replace("SERVER_NODE", "server")
 # %% 07.4 wrong: uses an anonymous node | hint: without anonymous=True
 replace('"SERVER_NODE"', '"SERVER_NODE", anonymous=True')
-# %% 07.4 wrong: passes the response class to rospy.Service | hint: Pass the class of the type
+# %% 07.4 wrong: passes the response class to rospy.Service | hint: Pass the class of the service type
 replace('"/getGeometry", geometry,', '"/getGeometry", geometryResponse,')
 # %% 07.4 wrong: misspells a variable | hint: The error occurred in line … of server.py
 replace("geometry, handle_geometry)", "geometry, handle_box)")

@@ -45,7 +45,7 @@ replace("names = [] … return names", "return [name for name in rosservice.get_
 replace("names.append(name)", "return [name]")
 # %% 08.1 wrong: returns the first service as a string | hint: Your function returned one string.
 replace("names.append(name)", "return name")
-# %% 08.1 wrong: prints the services instead of returning them | hint: without a return line
+# %% 08.1 wrong: prints the services instead of returning them | hint: without a return statement
 replace("names.append(name)", "print(name)")
 replace("\n    return names", "")
 
@@ -293,7 +293,7 @@ def move(switch, to_open):
 
 # %% 08.3 wrong: compares the message with a bool | hint: Compare the message
 replace('("open" if to_open else "closed")', "to_open")
-# %% 08.3 wrong: forgets to return | hint: without a return line
+# %% 08.3 wrong: forgets to return | hint: without a return statement
 replace('answer = rospy … was there"', """rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)
     rospy.ServiceProxy(f"{switch}/report", Trigger)()""")
 # %% 08.3 wrong: treats success=True as "was there" | hint: The switch responded with success=True and is in the wanted position, so
@@ -457,7 +457,7 @@ def call_any(service, fields):
 
 # %% 08.5 wrong: uses rosservice.call_service | hint: rosservice.call_service raises its own exception
 replace("cls = rosservice … )(request)", "return rosservice.call_service(service, [fields])[1]")
-# %% 08.5 wrong: forgets to return | hint: without a return line
+# %% 08.5 wrong: forgets to return | hint: without a return statement
 replace("return rospy", "rospy")
 # %% 08.5 wrong: returns request and response | hint: The function returned more than
 replace("rospy", "request, rospy")
@@ -536,7 +536,7 @@ replace('headers["md5sum"]', 'headers["md5"]')
 replace("headers = rosservice.get_service_headers(service, uri)", "its = rosservice.get_service_class_by_name(service)")
 replace('headers["type"]', "its._type")
 replace('headers["md5sum"]', "its._md5sum")
-# %% 08.6 wrong: prints the result instead of returning it | hint: without a return line
+# %% 08.6 wrong: prints the result instead of returning it | hint: without a return statement
 replace('return "ok" if', 'print("ok" if')
 replace('else "another definition"', 'else "another definition")')
 # %% 08.6 wrong: returns a bool | hint: Return one of the five strings

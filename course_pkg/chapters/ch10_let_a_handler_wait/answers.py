@@ -96,7 +96,7 @@ replace("return messages", "return list(messages)")
 replace("thread.join()", "thread.join(0.2)")
 # %% 10.1 wrong: returns a dict of the messages | hint: The list does not contain the right messages
 replace("return messages", "return {message: True for message in messages}")
-# %% 10.1 wrong: omits the return line | hint: without a return line
+# %% 10.1 wrong: omits the return line | hint: without a return statement
 replace("\n    return messages", "")
 # %% 10.1 wrong: uses a pool with one thread too few | hint: Some calls began only after other calls had returned
 based_on("uses a pool of threads and one proxy")

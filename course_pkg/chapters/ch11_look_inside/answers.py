@@ -39,7 +39,7 @@ replace("        text = f", "        if not value:\n            continue\n      
 # %% 11.1 wrong: writes no length for each field | hint: The length of a field is missing
 replace('body = b"" … text)) + text', 'body = "".join(f"{name}={value}" for name, value in fields.items()).encode()')
 
-# %% 11.1 wrong: forgets to return | hint: without a return line
+# %% 11.1 wrong: forgets to return | hint: without a return statement
 def pack_header(fields):
     body = b"".join(struct.pack("<I", len(name)) + name.encode() for name in fields)
     struct.pack("<I", len(body)) + body
@@ -140,7 +140,7 @@ replace("sock.recv(count - len(data))", "sock.recv(count)")
 replace("return data", "return data[:count]")
 # %% 11.2 wrong: returns fewer bytes at the end | hint: The connection ended early, and the function returned fewer than `count` bytes
 replace('raise ConnectionError("the other end has closed")', "break")
-# %% 11.2 wrong: forgets to return | hint: without a return line
+# %% 11.2 wrong: forgets to return | hint: without a return statement
 replace("\n    return data", "")
 # %% 11.2 wrong: treats a short piece as the end of the connection | hint: The connection is still open, and more bytes follow
 replace('data = b"" … data += piece', 'data = sock.recv(count)\n    if len(data) < count:\n        raise ConnectionError("too short")')
@@ -452,7 +452,7 @@ replace('("no field session in the connection header")', """("no session")
             raise rospy.ServiceException("this session is not yours")""")
 # %% 11.4 wrong: forgets old sessions | hint: The response contains only the amount of this call
 replace("        total, calls", "        for old in list(self.sessions)[:-3]:\n            del self.sessions[old]\n        total, calls")
-# %% 11.4 wrong: starts the course's server | hint: A program that your code started does the work of this
+# %% 11.4 wrong: starts the course's server | hint: Your code starts another program
 import subprocess
 
 

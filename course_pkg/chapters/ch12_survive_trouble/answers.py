@@ -120,7 +120,7 @@ replace("thread.join(seconds)", "for _ in range(10):\n        time.sleep(seconds
 replace("thread.join(seconds)", "thread.join(3 * seconds if seconds < 1 else seconds)")
 # %% 12.1 wrong: does not wait | hint: The response came in time, but the function raised TimeoutError
 replace("    thread.join(seconds)\n", "")
-# %% 12.1 wrong: omits the return line | hint: without a return line
+# %% 12.1 wrong: omits the return line | hint: without a return statement
 replace("\n    return responses[0]", "")
 # %% 12.1 wrong: returns a field of the response | hint: The function did not return the response
 replace("return responses[0]", "return responses[0].sum")

@@ -55,7 +55,7 @@ class Publisher:
 
         `hints` are for the value "no subscriber"; a subscriber with another type does not count.
         """
-        assertion = f"somebody listens to {self._label}"
+        assertion = f"{self._label} has a subscriber"
         if not self.has_subscriber(within):
             hint = (
                 hint_for(hints, "no subscriber")

@@ -134,7 +134,7 @@ class Service:
         try:
             return inbox.get(timeout=max(deadline.left, 0.01))
         except queue.Empty:
-            error = f"TimesUp: no answer within {self._timeout:g} s"
+            error = f"TimesUp: no response within {self._timeout:g} s"
             return Reply(request, error=error, took=self._timeout)
 
     def _started(self, request: Message) -> queue.Queue[Reply]:

@@ -82,7 +82,7 @@ class Subscription:
 
         The actual value for `hints` is "no publisher", or the name of a wrong type.
         """
-        assertion = f"{self._label} is published as {self.kind}"
+        assertion = f"{self._label} is published with the type {self.kind}"
         found = wait_until(self._found, within)
         if found != self.kind:
             actual = found or "no publisher"
@@ -137,8 +137,8 @@ class Subscription:
         others = [name for name in self._node.master.system_state().publishers if name != "/rosout"]
         if alike := difflib.get_close_matches(self.name, others, n=1):
             return (
-                f"The graph contains {alike[0]}. Compare this name letter by letter with the name "
-                "in the exercise."
+                f"The graph contains a topic with a similar name, {alike[0]}. Compare this name "
+                "letter by letter with the name in the exercise."
             )
         return (
             "No node publishes this topic. Run the cell that publishes this topic, and run it "

@@ -122,7 +122,7 @@ def _not_attempted(part: Part, channel: Channel) -> str:
             alike = reply.get("alike")
             names = " and ".join(map(str, alike)) if isinstance(alike, list) else ""
             found = f" A similar name exists: {names}. Is this the name in the exercise?" if names else ""
-            return f"{shown} is not defined. Run the cell above first.{found}"
+            return f"{shown} is not defined. First run the cell above.{found}"
         for reply in there:
             require_current(reply)
     return _unchanged(part, channel)
@@ -143,7 +143,7 @@ def _unchanged(part: Part, channel: Channel) -> str:
 
 def _too_slow(part: Part, context: CheckContext) -> Assertion:
     return Assertion(
-        f"it ends within {part.deadline:g} s",
+        f"the check ends within {part.deadline:g} s",
         holds=False,
         actual=f"still {context.doing}" if context.doing else "",
         hint=(

@@ -29,7 +29,7 @@ class Cases:
     keys: str
     spelling: str
     entry: str = "cause"  # A report uses this noun for an entry.
-    listed: str = "the list"
+    listed: str = "the entries in the list"
     case: str = "case"  # A report uses this noun for a case.
     label: str = "case {}"
     again: str = "case {}"

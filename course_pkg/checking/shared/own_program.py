@@ -45,8 +45,8 @@ def require_kernel(context: CheckContext, nodes: Collection[str]) -> None:
             expected=f"the node {kernel}",
             actual=f"the node {others[0]}",
             hint=(
-                "A program that your code started does the work of this exercise. Write this work "
-                "as code in the cell, and do not start another program."
+                "Your code starts another program, and this program does the work of the exercise. "
+                "Write the code for this work in the cell, and do not start another program."
             ),
         )
 

@@ -96,7 +96,7 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
     if starts or hidden.out.strip() != "0":
         context.fail(
             ITSELF,
-            expected="no other program or library that is started or loaded",
+            expected="no call that starts another program or loads a library",
             actual=f"calls of {', '.join(starts)}" if starts else "a direct system call",
             hint=STARTS_ANOTHER,
         )

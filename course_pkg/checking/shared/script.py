@@ -16,7 +16,7 @@ def require_shebang(
     another: str = "",
     windows: str = "",
     mark: str = "",
-    assertion: str = "its first line is #!/usr/bin/env python3",
+    assertion: str = "the first line of the file is #!/usr/bin/env python3",
     program: str = "python3",
 ) -> None:
     """Assert that the file's first line is a shebang for the right program, and does not use Python 2.

@@ -95,7 +95,7 @@ def test_a_wait_ends_when_its_time_is_over(check: Kernel) -> None:
 def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
     """If a topic has no publisher, the report says so and contains a similar topic name."""
     assert check.run("result = broken(subscribe('/joint_states'), within=0.1)") == [
-        "/joint_states is published as std_msgs/UInt32",
+        "/joint_states is published with the type std_msgs/UInt32",
         "no publisher",
         "No node publishes this topic. Run the cell that publishes this topic, and run it again after each "
         "restart of the kernel.",
@@ -103,7 +103,8 @@ def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
     student.run("p = rospy.Publisher('/joint_state', UInt32, queue_size=1)")
     report = check.run("result = broken(subscribe('/joint_states'), within=0.1)")
     assert report[2] == (
-        "The graph contains /joint_state. Compare this name letter by letter with the name in the exercise."
+        "The graph contains a topic with a similar name, /joint_state. Compare this name letter by letter with "
+        "the name in the exercise."
     )
 
 
@@ -178,7 +179,7 @@ def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
     """If the only subscriber has a wrong message type, the hint contains the expected type."""
     student.run("subscription = node.subscribe('/few', Float64)")
     assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
-        "somebody listens to /few",
+        "/few has a subscriber",
         "no subscriber",
         "No node is subscribed to this topic. Create a rospy.Subscriber of type "
         "std_msgs/UInt32 for this topic.",

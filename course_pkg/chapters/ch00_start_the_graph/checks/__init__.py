@@ -14,8 +14,9 @@ from course_pkg.ros.protocol.json_channel import Json
 NOT_RECEIVED = [
     (
         matches("^ROSException.*timeout|^TimesUp"),
-        "No message arrived, although the topic gets more than 20 messages per second. Receive messages "
-        "of the type UInt32 from the topic whose name is in the argument `topic`.",
+        "No message arrived, although a node publishes more than 20 messages per second on the "
+        "topic. Receive messages of the type UInt32 from the topic whose name is in the argument "
+        "`topic`.",
     )
 ]
 NODE, SERVICE, TYPE = (
@@ -23,7 +24,10 @@ NODE, SERVICE, TYPE = (
     "Find the name of the service.",
     "Find the type of the service.",
 )
-TOO_LONG = "The pause is too long. Pause for `pause` seconds, and receive only one number after the pause."
+TOO_LONG = (
+    "The pause is too long. Pause for the time in the argument `pause`, and receive only one number "
+    "after the pause."
+)
 RECEIVED = "Return two numbers from the topic: one number before the pause, and one number after the pause."
 MISSED = "Return how many numbers were published between the two received numbers."
 
@@ -42,7 +46,7 @@ def read_the_graph(context: CheckContext) -> None:
     """Compare the names that the student found for the node, the service and the type with the right ones."""
     with context.goal(NODE):
         context.expect(
-            "the name of the node",
+            "the name of the node is right",
             expected="/SERVER_NODE",
             actual=context.read("name_of_node"),
             hints=[
@@ -80,7 +84,7 @@ def read_the_graph(context: CheckContext) -> None:
         )
     with context.goal(SERVICE):
         context.expect(
-            "the name of the service",
+            "the name of the service is right",
             expected="/getGeometry",
             actual=context.read("name_of_service"),
             hints=[
@@ -94,8 +98,8 @@ def read_the_graph(context: CheckContext) -> None:
                 (
                     matches("logger"),
                     (
-                        "Every node offers the service in your answer. Find the service that only the node "
-                        "of the server offers."
+                        "Every node offers a service for log messages, such as the one in your "
+                        "answer. Find the service that measures boxes."
                     ),
                 ),
                 (
@@ -119,7 +123,7 @@ def read_the_graph(context: CheckContext) -> None:
         )
     with context.goal(TYPE):
         context.expect(
-            "the type of the service",
+            "the type of the service is right",
             expected="course_pkg/geometry",
             actual=context.read("name_of_type"),
             hints=[
@@ -182,8 +186,9 @@ def ask_a_question(context: CheckContext) -> None:
                 expected=f"a call of {name}",
                 actual="no call",
                 hints=(
-                    "A second call with the same sides returned the result of the first call. Call the "
-                    "service each time ask_for_volume() runs."
+                    "The check called ask_for_volume() twice with the same sides, but the second "
+                    "time, your function did not call the service. Call the service each time your "
+                    "function runs."
                 )
                 if number == 1
                 else (
@@ -214,7 +219,10 @@ def _other_sides(sides: dict[str, float]) -> Hints:
     return [
         (
             lambda actual: 0.0 in actual.values(),
-            "The request contains 0 for one side, because a field without a value is 0. Set all three sides.",
+            (
+                "One side in the request is 0, because ROS sends 0 for a number that you do not set. "
+                "Set all three sides."
+            ),
         ),
         (
             lambda actual: not same([*sorted(sides.values())], sorted(actual.values()), near=1e-4),
@@ -246,8 +254,8 @@ def _no_volume(area: float, volume: float, sides: Sequence[float]) -> Hints:
         (
             prod(sides),
             (
-                "Your function multiplied the sides, but this server returns different numbers. Return "
-                "the volume from the response of the server."
+                "Your function multiplied the sides, but the server of this check returns a "
+                "different volume. Return the volume from the response of the server."
             ),
         ),
         (
@@ -302,7 +310,7 @@ def count_what_was_missed(context: CheckContext) -> None:
         before, after, missed = _three_numbers(context, done.returned())
         sent = publisher.sent
         context.require(
-            "the first two numbers are numbers of the topic",
+            "the first two numbers were published on the topic",
             holds=all(0 <= number - first < len(sent) for number in (before, after)),
             expected=f"numbers such as {first + 5}",
             actual=[before, after],
@@ -318,13 +326,13 @@ def count_what_was_missed(context: CheckContext) -> None:
             expected=f"{pause} s between the two numbers",
             actual=f"{before}, and then {after}" if before > after else f"{between:.2f} s",
             hints=(
-                "The order of the two numbers is wrong. First return the number before the "
-                "pause, and then the number after the pause."
+                "The order of the two numbers is wrong. The first number has to be the number before "
+                "the pause, and the second number has to be the number after the pause."
             )
             if before > after
             else (
-                "The time between the two numbers is too short. After the first number, pause "
-                "for `pause` seconds with `time.sleep`."
+                "The time between the two numbers is too short. After you receive the first number, "
+                "use `time.sleep` to pause for the time in the argument `pause`."
             ),
         )
         # A subscriber receives a number only if it is connected to the publisher. The subscriber may connect
@@ -333,9 +341,9 @@ def count_what_was_missed(context: CheckContext) -> None:
         for place in (before - first, after - first):
             if not any(subscribers[place : place + 2]):
                 context.fail(
-                    "the first two numbers are numbers of the topic",
+                    "the first two numbers were published on the topic",
                     expected="two numbers that your function received",
-                    actual=f"{first + place}, a number that was published without a subscriber",
+                    actual=f"{first + place}, a number that was published while the topic had no subscriber",
                     hint=(
                         "Your function returned a number that it did not receive. Receive one number before "
                         "the pause and one number after the pause, and return these two numbers."
@@ -356,19 +364,19 @@ def count_what_was_missed(context: CheckContext) -> None:
             )
         with context.goal(MISSED):
             context.expect(
-                "the third number is how many were missed",
+                "the third number is the count of missed numbers",
                 expected=after - before - 1,
                 actual=missed,
                 hints=[
                     (
                         after - before,
-                        "Your count includes one of the two numbers that you received. "
-                        "Example: between 17 and 25, there are 7 missed numbers.",
+                        "Your count includes one of the two numbers that you received. For example, "
+                        "if you receive 17 and 25, you miss 7 numbers.",
                     ),
                     (
                         after - before + 1,
-                        "Your count includes both numbers that you received. Example: between "
-                        "17 and 25, there are 7 missed numbers.",
+                        "Your count includes both numbers that you received. For example, if you "
+                        "receive 17 and 25, you miss 7 numbers.",
                     ),
                     (
                         before - after + 1,
@@ -376,8 +384,8 @@ def count_what_was_missed(context: CheckContext) -> None:
                     ),
                     (
                         ANYTHING,
-                        "Calculate the third number from the first two numbers. Example: "
-                        "between 17 and 25, there are 7 missed numbers.",
+                        "Calculate the third number from the first two numbers. For example, if you "
+                        "receive 17 and 25, you miss 7 numbers.",
                     ),
                 ],
             )
@@ -413,7 +421,7 @@ def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int
     )
     before, after, missed = of_kind(list, returned, "the result")
     context.require(
-        "the three are whole numbers",
+        "the three results are whole numbers",
         holds=all(type(number) is int for number in (before, after, missed)),
         expected="three values of type int",
         actual=returned,

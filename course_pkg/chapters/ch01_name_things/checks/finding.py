@@ -110,7 +110,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
     )
     context.fulfilled(FOUND)
     context.expect(
-        "None if there is no such service",
+        "the function returns None if there is no such service",
         expected=None,
         actual=context.run(
             "ask_wherever", context.random.word(), 1.0, 2.0, 3.0, hints=_LOST + _NOBODY
@@ -130,8 +130,8 @@ def _is_sent(context: CheckContext, server: ScriptedServer, sides: list[float]) 
         hints=[
             (
                 lambda actual: not any(actual.values()),
-                "The request contains 0 for all sides, because a field without a value is "
-                "0. Set all three sides.",
+                "All sides in the request are 0, because ROS sends 0 for a number that you do not "
+                "set. Set all three sides.",
             ),
             (
                 ANYTHING,
@@ -148,7 +148,7 @@ def _only_this_one(context: CheckContext, similar: list[ScriptedServer]) -> None
     if requests:
         context.fail(
             "the volume comes from the right service",
-            expected="no call of another service",
+            expected="no call of any other service",
             actual=f"{requests} call(s) of services with similar names",
             hint=LOOKS_LIKE_IT,
         )
@@ -167,15 +167,15 @@ def _in_a_random_order(context: CheckContext) -> None:
         if volume is not None:
             server = context.serve(f"/{place}/{last}", GEOMETRY, lambda _, volume=volume: {"volume": volume})
         context.expect(
-            "None if there is no such service"
+            "the function returns None if there is no such service"
             if volume is None
             else "the volume comes from the right service",
             expected=volume,
             actual=context.run("ask_wherever", last, *sides, hints=_LOST + _NOBODY).returned(),
             near=1e-6,
             hints=(
-                "The result has to depend on the services that exist now, not on earlier calls. Each "
-                "time your function is called, get the list of services again."
+                "The result has to depend on the services that exist now, not on earlier calls of "
+                "your function. Each time your function is called, get the list of services again."
             ),
         )
         if server:
@@ -236,7 +236,7 @@ def who_really_publishes(context: CheckContext) -> None:
     found = _living(context, topic)
     unpinged = [node.name for node in nodes if node.alive and not node.pings]
     context.expect(
-        "the running publishers of a topic, sorted",
+        "the list contains the running publishers of a topic, and it is sorted",
         expected=sorted(living),
         actual=found,
         hints=[
@@ -296,7 +296,7 @@ def who_really_publishes(context: CheckContext) -> None:
     )
     if unpinged:
         context.fail(
-            "the running publishers of a topic, sorted",
+            "the list contains the running publishers of a topic, and it is sorted",
             expected="a ping of each publisher",
             actual=f"no ping of {', '.join(sorted(unpinged))}",
             hint=(
@@ -306,7 +306,7 @@ def who_really_publishes(context: CheckContext) -> None:
         )
     context.fulfilled(RUNNING)
     context.expect(
-        "no running publisher gives an empty list",
+        "the list is empty if no publisher is running",
         expected=[[], []],
         actual=[_living(context, grave), _living(context, f"/{context.random.word()}")],
         hints="Return an empty list if no running node publishes the topic.",

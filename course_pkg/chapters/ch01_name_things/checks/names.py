@@ -16,7 +16,7 @@ from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient
 GEOMETRY = "course_pkg/geometry"
 TIMEOUT = 5.0  # A running node has to list its topics within this time in s.
 START = 20.0  # A program may take this many s to start; usually, it takes 0.5 s.
-WHERE = "the service of a room is measure, in the namespace of the room"
+WHERE = "the service is called measure, and it is in the namespace of the room"
 OWN_SERVICE = "Start a server that offers the service `measure` in the namespace of the room."
 OWN_NODE = "Name the server's node `measurer`, and start this node in the namespace of the room."
 VIEWER = (
@@ -142,7 +142,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
     context.require(WHERE, holds=True)
     with context.goal(OWN_NODE):
         context.expect(
-            "the node of a room is measurer, in the namespace of the room",
+            "the node is called measurer, and it is in the namespace of the room",
             expected=node,
             actual=service.node,
             hints=[
@@ -155,7 +155,13 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
                     "The node is not in the namespace of the room. Use `__ns:=…` to set the "
                     "namespace of the node.",
                 ),
-                (ANYTHING, "The name of the node has to be `measurer`, in the namespace of the room."),
+                (
+                    ANYTHING,
+                    (
+                        "The name of the node is wrong. The node has to be `measurer` in the namespace "
+                        "of the room."
+                    ),
+                ),
             ],
         )
     require_served_by_program(context, server, wanted)
@@ -168,8 +174,9 @@ def _astray(room: str, found: str, node: str) -> str:
     """
     if found == "/measure" and node.startswith(f"/{room}/"):
         return (
-            "The node is in the namespace of the room, but the service is /measure for every room. Put the "
-            "service into this namespace, too: `__ns` does not change a name that begins with a slash."
+            "The node is in the namespace of the room, but the name of the service is /measure for "
+            "every room. Remove the slash from this name, because `__ns` does not change a name that "
+            "begins with a slash."
         )
     if found == "/measure":
         return (
@@ -183,8 +190,8 @@ def _astray(room: str, found: str, node: str) -> str:
         )
     if found == f"/{room}/getGeometry":
         return (
-            "The service is in the namespace of the room, but the service has its old name. In "
-            "a remapping `old:=new`, the old name comes first."
+            "The service is in the namespace of the room, but it still has its old name. In a "
+            "remapping `old:=new`, the old name comes first."
         )
     if found == f"/{room}/measurer/measure":
         return (
@@ -205,7 +212,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
     name, seen = _viewer(context, viewer, before)
     with context.goal(VIEWER):
         context.expect(
-            "the node is the arm's viewer, in the namespace /screen",
+            "the viewer's node has the right name and is in the namespace /screen",
             expected=f"/screen/{arm}_viewer",
             actual=name or "no new node that subscribes to a topic",
             hints=[
@@ -227,14 +234,14 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
         )
     with context.goal(SUBSCRIBES):
         context.expect(
-            "the viewer subscribes to the arm's joint_states",
+            "the viewer subscribes to the arm's topic joint_states",
             expected=[f"/{arm}/joint_states"],
             actual=[topic.name for topic in seen.topics if name in topic.subscribers],
             hints=[
                 (
                     ("/screen/joint_states",),
-                    "The viewer subscribes to a topic in its own namespace, but no arm "
-                    "publishes there. Remap `joint_states` with `:=`.",
+                    "The viewer subscribes to a topic in its own namespace, but no arm publishes on "
+                    "this topic. Remap `joint_states` with `:=`.",
                 ),
                 (
                     (f"/screen/{arm}/joint_states",),
@@ -252,7 +259,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
     _require_own_topics(context, viewer, name, seen)
     with context.goal(PUBLISHES):
         context.expect(
-            "the viewer publishes the arm's mirrored_joints",
+            "the viewer publishes on the arm's topic mirrored_joints",
             expected=[f"/screen/{arm}/mirrored_joints"],
             actual=[topic for topic in published if topic != "/rosout" and not topic.endswith("/pictures")],
             hints=[
@@ -290,12 +297,12 @@ def _require_own_topics(context: CheckContext, viewer: Running, name: str, seen:
     listed = {topic.name for topic in seen.topics if name in {*topic.subscribers, *topic.publishers}}
     if node and not all(repr(topic) in str(own) for topic in listed):
         context.fail(
-            "the node is the program of the command",
-            expected="a program that subscribes and publishes itself",
-            actual=f"{name}, which is registered without a program of the command",
+            "the node runs in the program that the command starts",
+            expected="a node that runs in the program of the command",
+            actual=f"{name}, which runs in no program of the command",
             hint=(
-                "The program that your command starts is not the registered viewer. Give the program its "
-                "node name and its topics with the command only."
+                "The viewer on the graph is not the program that your command starts. In the "
+                "command, use remappings to set the name of the node and the names of the topics."
             ),
         )
 

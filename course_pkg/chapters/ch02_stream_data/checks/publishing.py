@@ -84,13 +84,13 @@ def count_aloud(context: CheckContext) -> None:
         _counts(context, arrivals, count)
         _keeps_time(context, arrivals, hertz)
         context.require(
-            "it begins as soon as a subscriber is connected",
+            "the function begins to publish as soon as a subscriber is connected",
             holds=counted.took < min(at_this_load(count / hertz + 1.2), count / hertz + TOO_LONG),
             expected="the first number immediately after a subscriber is connected",
             actual=f"the last number after {counted.took:.1f} s",
             hints=(
-                "Check every few milliseconds whether a subscriber is connected. Begin when "
-                "the first subscriber is connected."
+                "Check every few milliseconds whether a subscriber is connected. Begin to publish "
+                "when the first subscriber is connected."
             ),
         )
     context.fulfilled(COUNTS)
@@ -120,14 +120,17 @@ def _counts_alone(context: CheckContext, topic: str) -> None:
             (matches("TimesUp"), WAITS_FOR_EVER),
             (
                 matches("^(?!TimesUp)"),
-                "The function failed without a subscriber. Even without a subscriber, publish all numbers.",
+                (
+                    "The function raised an exception when the topic had no subscriber. Publish all "
+                    "numbers in this case, too."
+                ),
             ),
         ],
     )
     comes.join()
     alone.returned()
     context.require(
-        "without a subscriber it begins after 2 s",
+        "without a subscriber, the function begins to publish after 2 s",
         holds=EARLIEST < alone.took < 5.5,
         expected=f"a pause of 2 s, and then {count} numbers at {hertz} per second (about 3 s in total)",
         actual=f"the last number after {alone.took:.1f} s",
@@ -140,7 +143,7 @@ def _counts_alone(context: CheckContext, topic: str) -> None:
     numbers = _numbers_until(late[0], count - 1) if late else []
     if not numbers or numbers != list(range(numbers[0], count)) or numbers[0] == 0:
         context.fail(
-            "without a subscriber it begins after 2 s",
+            "without a subscriber, the function begins to publish after 2 s",
             expected=(
                 f"a subscriber that connects after {COMES} s receives the last numbers, up to {count - 1}"
             ),
@@ -173,7 +176,7 @@ def _slow(hertz: int) -> Hints:
 def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
     numbers = [arrival.fields["data"] for arrival in arrivals]
     context.expect(
-        "every number arrives once, in order, from 0",
+        "every number arrives once, in ascending order, beginning with 0",
         expected=list(range(count)),
         actual=numbers,
         hints=[
@@ -242,7 +245,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goal="Publish a value when it changes. A node that subscribes later has to receive the last value.",
     needs=["Notice"],
     deadline=30.0,
-    goals=[LATCHED, "Publish each change once. Do not publish a value again if it has not changed."],
+    goals=[LATCHED, "Publish each new value once. Do not publish a value again if it has not changed."],
 )
 def a_notice(context: CheckContext) -> None:
     """Call set() without a subscriber and with a subscriber; another subscriber connects after the calls.
@@ -259,8 +262,8 @@ def a_notice(context: CheckContext) -> None:
     context.require(
         "without a subscriber, set() returns immediately",
         holds=statistics.median(took) < AT_ONCE,
-        expected=f"a return within {AT_ONCE} s",
-        actual=f"a return after {statistics.median(took):.1f} s",
+        expected=f"set() returns within {AT_ONCE} s",
+        actual=f"set() returned after {statistics.median(took):.1f} s",
         hints=WAITS,
     )
     subscriber = _subscribed(context, topic)
@@ -282,15 +285,15 @@ def a_notice(context: CheckContext) -> None:
     if statistics.median(took) > AT_ONCE:
         context.fail(
             "with a subscriber, set() returns immediately",
-            expected=f"a return within {AT_ONCE} s",
-            actual=f"a return after {statistics.median(took):.1f} s",
+            expected=f"set() returns within {AT_ONCE} s",
+            actual=f"set() returned after {statistics.median(took):.1f} s",
             hint=WAITS,
         )
     _receives(
         context,
         subscriber,
         [first, second, third, second],
-        "an earlier value is published when it is set again",
+        "an earlier value is published again if set() gets it again",
     )
     subscriber.leave()
     _receives(context, _subscribed(context, topic), [second], LATE)
@@ -330,8 +333,8 @@ def _receives(context: CheckContext, subscription: Subscription, values: list[fl
         hints=[
             (
                 lambda actual: not actual and values == [0.0],
-                "The first value was 0, and it was not published. Before the first call, store "
-                "None as the last value, not a number.",
+                "The first value was 0, and it was not published. Before the first call, the stored "
+                "value has to be None, not a number.",
             ),
             (
                 [],
@@ -350,7 +353,7 @@ def _receives(context: CheckContext, subscription: Subscription, values: list[fl
             ),
             (
                 lambda actual: len(actual) > len(values) and set(actual) == set(values),
-                "A value was published twice. Publish each change only once.",
+                "A value was published twice. Publish each new value only once.",
             ),
             (
                 lambda actual: len(actual) > len(values),

@@ -59,8 +59,8 @@ ANGLES, ORDERS = 60, 20
 HEADER = "the header and its time stamp stay the same"
 NO_SUBSCRIBER = "Return the rospy.Subscriber object. The check uses this object to unregister the subscriber."
 OTHER_ORDER = (
-    "The two subscribers are in the wrong order. Return the subscriber for `angles` first, and "
-    "then the subscriber for `orders`."
+    "The two subscribers are in the wrong order. Return the subscriber of the topic `angles` first, "
+    "and then the subscriber of the topic `orders`."
 )
 NO_VELOCITIES = (
     "Your callback lost the positions of a message that has no velocities. Change the signs in each "
@@ -105,7 +105,10 @@ class Work:
             self._busy -= 1
 
 
-MIRRORED = "Publish every message once, with the same header and with the opposite sign of each number."
+MIRRORED = (
+    "For each received message, publish one message with the same header. In this message, each "
+    "number has the opposite sign."
+)
 NEWEST, ALL_ORDERS = (
     "Draw only the newest angle.",
     "Prepare each order only once, and begin with the oldest order.",
@@ -148,7 +151,7 @@ def a_mirror(context: CheckContext) -> None:
         _mirrors(context, messages, subscription.wait(len(messages), within=1.5))
         subscription.during(0.3)
         context.expect(
-            "one mirrored message for each message",
+            "the mirror publishes one message for each received message",
             expected=len(messages),
             actual=subscription.count,
             hints=ONCE,
@@ -157,7 +160,7 @@ def a_mirror(context: CheckContext) -> None:
         _promptly(context, publisher.sent, subscription.arrivals)
         expected, seen = _changed(messages, context.read("witnessed", list))
         context.expect(
-            "the message that the callback gets is not changed",
+            "the callback does not change the received message",
             expected=expected,
             actual=seen,
             near=1e-9,
@@ -172,7 +175,7 @@ def a_mirror(context: CheckContext) -> None:
     if subscription.count > before:
         context.fail(
             "the subscriber is returned",
-            expected="no mirrored message after unregister() of the subscriber",
+            expected="no mirrored message after the check has called unregister() of the subscriber",
             actual=f"{subscription.count - before} messages",
             hint=NO_SUBSCRIBER,
         )
@@ -243,7 +246,7 @@ def _begun(
         context.require(
             "the subscriber is returned" if len(topics) == 1 else "two subscribers are returned",
             holds=isinstance(names, list) and len(names) == len(topics) and not swapped,
-            expected=f"subscribers: {len(topics)}, in the order of the goal",
+            expected=f"subscribers: {len(topics)}, in the order that the exercise describes",
             actual=names,
             hints=OTHER_ORDER if swapped else NO_SUBSCRIBER if len(topics) == 1 else NO_TWO,
         )
@@ -259,7 +262,7 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
     context.require(
         HEADER,
         holds=bool(heard) and seen[0] in stamps,
-        expected="the stamps that were published",
+        expected="the time stamp of a published message",
         actual=seen[:3] if heard else "nothing arrived",
         hints=[
             (
@@ -269,7 +272,10 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
             ),
             (
                 matches("'secs': 0, 'nsecs': 0"),
-                "The time stamp is 0, because the header is new. Copy the header of the received message.",
+                (
+                    "The time stamp is 0, because your callback created a new header. Copy the "
+                    "header of the received message."
+                ),
             ),
             (
                 ANYTHING,
@@ -288,7 +294,7 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
         )
         _is_image(context, message, arrival.fields)
     context.expect(
-        "every message is mirrored, in order",
+        "every message is mirrored, and the order of the messages stays the same",
         expected=[stamp["secs"] for stamp in stamps],
         actual=[stamp["secs"] for stamp in seen],
         hints=[
@@ -316,7 +322,7 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
 
 def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
     context.expect(
-        "the names stay the same",
+        "the names of the joints stay the same",
         expected=message["name"],
         actual=image["name"],
         hints=[
@@ -369,15 +375,15 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
                 (
                     [-value for value in message[other]],
                     (
-                        f"Your message contains the numbers of the field `{other}` in the wrong "
-                        "field. Compare the names of the fields."
+                        f"In your message, the field `{field}` contains the numbers of the field "
+                        f"`{other}`. Compare the names of the fields."
                     ),
                 ),
                 (
                     _of_another_length(values),
                     (
-                        "Your list has another length than the list in the received message. For each "
-                        "message, create a new list with a loop over all numbers."
+                        "The length of your list differs from the length of the list in the received "
+                        "message. For each message, create a new list with a loop over all numbers."
                     ),
                 ),
                 (ANYTHING, "Change only the sign of each number."),
@@ -397,7 +403,10 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
         "each message is mirrored without delay",
         holds=median < 0.15 and fast < 0.08,
         expected="a mirrored message a few milliseconds after the original",
-        actual=f"at least {fast:.2f} s for each message, and {median:.2f} s for half of the messages",
+        actual=(
+            f"a delay of at least {fast:.2f} s for each message, and of at least {median:.2f} s for "
+            "half of the messages"
+        ),
         hints="Your messages are late. Publish in the callback, and do not wait in the callback.",
     )
 
@@ -452,7 +461,7 @@ def _drawn(
     """
     angles = [angle for _, angle in drawn]
     context.require(
-        "draw is called with angles of the topic",
+        "draw() is called with angles from the topic",
         holds=bool(angles) and set(map(str, angles)) <= set(map(str, sent)),
         expected="numbers that were published",
         actual=angles[:3] or "no call",
@@ -469,7 +478,7 @@ def _drawn(
         ],
     )
     context.require(
-        "draw is called again and again",
+        "draw() is called again and again",
         holds=len(angles) > 2,
         expected="a call after each drawing",
         actual=f"{len(angles)} calls",
@@ -481,22 +490,22 @@ def _drawn(
     # A new angle arrives during each drawing, so the next drawing begins immediately.
     pause = min(later - earlier for (earlier, _), (later, _) in pairwise(drawn))
     context.require(
-        "draw is called again and again",
+        "draw() is called again and again",
         holds=pause < 2.2 * DRAWING,
-        expected=f"a call every {DRAWING} s, because a drawing takes this time",
+        expected=f"a call every {DRAWING} s, because one drawing takes this time",
         actual=f"at least {pause:.2f} s between two calls",
         hints=(
-            "draw() was called too seldom, although new angles arrived. Call draw() again as soon as a "
-            "drawing has ended."
+            "draw() was not called often enough, although new angles arrived. Call draw() again as "
+            "soon as a drawing has ended."
         ),
     )
     overlap = any(later - earlier < 0.9 * DRAWING for (earlier, _), (later, _) in pairwise(drawn))
     _one_at_a_time(context, "draw", max(at_once, 1 + overlap))
     order = [list(sent).index(angle) for angle in angles]
     context.require(
-        "each angle is newer than the one before",
+        "each drawn angle is newer than the previous drawn angle",
         holds=order == sorted(set(order)),
-        expected="a later angle each time",
+        expected="a newer angle in each call",
         actual=angles,
         hints=(
             "An angle was drawn twice, or an old angle was drawn after a newer angle. Wait for a new "
@@ -519,15 +528,15 @@ def _drawn(
         expected=list(sent)[-1],
         actual=angles[-1],
         hints=(
-            "The last angle was not drawn. Do not skip angles by number or by time: always draw "
-            "the newest angle."
+            "The last angle was not drawn. Do not skip a fixed number of angles: always draw the "
+            "newest angle."
         ),
     )
 
 
 def _prepared(context: CheckContext, at_once: int, prepared: list[Value], numbers: list[int]) -> None:
     context.expect(
-        "each order is prepared once, in order",
+        "each order is prepared once, and the oldest order is always first",
         expected=numbers,
         actual=prepared,
         hints=[
@@ -547,7 +556,7 @@ def _prepared(context: CheckContext, at_once: int, prepared: list[Value], number
             ),
             (
                 lambda actual: set(actual) < set(numbers),
-                "Some orders were lost. Up to twenty orders wait at the same time, so do not "
+                "Some orders were lost. Up to twenty orders can wait at the same time, so do not "
                 "limit the queue for orders.",
             ),
             (
@@ -566,7 +575,7 @@ def _one_at_a_time(context: CheckContext, function: str, at_once: int) -> None:
     `at_once` is the measured maximum number of simultaneous calls.
     """
     context.expect(
-        f"one call of {function} at a time",
+        f"only one call of {function}() runs at a time",
         expected=1,
         actual=at_once,
         hints=f"Two calls of {function}() ran at the same time. Do not start a thread for each message.",

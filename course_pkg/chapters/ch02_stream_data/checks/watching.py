@@ -70,8 +70,14 @@ def watch_a_stream(context: CheckContext) -> None:
         publisher = _speaks(context, unasked)
         # After six published messages, the student's Watch object has received some messages.
         wait_until(lambda: len(publisher.sent) > 5, 5.0)
-        _says(context, unasked, "it receives messages before the first call of state()", "running", _UNASKED)
-        _says(context, topic, "two watches are independent", "waiting", _APART)
+        _says(
+            context,
+            unasked,
+            "the Watch object receives messages before the first call of state()",
+            "running",
+            _UNASKED,
+        )
+        _says(context, topic, "two Watch objects are independent of each other", "waiting", _APART)
         _runs(context, topic)
         _speaks(context, topic)
         time.sleep(0.5)
@@ -192,7 +198,10 @@ _RETURNS = [
     ),
     (
         matches("TypeError.*NoneType"),
-        "Before the first message, no time is stored, so a comparison fails. Test for this case first.",
+        (
+            "Before the first message, no time is stored, so your comparison raises an exception. "
+            "Test for this case first."
+        ),
     ),
 ]
 _BEFORE: Hints = [
@@ -236,8 +245,8 @@ _PAUSE: Hints = [
 _END: Hints = [
     (
         "running",
-        "No message has arrived for more than 1 s. Compare the exact time since the last message (with "
-        "its digits after the point) with 1 s. Do not test whether a publisher is registered.",
+        "No message has arrived for more than 1 s. Compare the time since the last message with 1 s: "
+        "do not round this time, and do not test whether a publisher is registered.",
     ),
     (
         "waiting",

@@ -47,8 +47,8 @@ WRONG: Mapping[tuple[str, str], str] = {
     (
         "tidy the room",
         "topic",
-    ): "With a topic, the sender gets no result of its job, and no progress messages. Choose a "
-    "design with a result and progress messages.",
+    ): "With a topic, the node that publishes the task gets no progress messages and no result. "
+    "Choose a design with a result and progress messages.",
     (
         "free space on disk",
         "topic",
@@ -56,26 +56,30 @@ WRONG: Mapping[tuple[str, str], str] = {
     "number only once. Choose a design with a single call.",
 }
 HOLLOW: Mapping[str, str] = {
-    "answer": "This reason does not fit: in this job, the node that sends the data does not need an answer.",
-    "many": "This reason does not fit: in this job, only one node needs the data.",
-    "newest": "This reason does not fit: in this job, new values are not produced all the time.",
-    "seldom": "This reason does not fit: in this job, the data is needed often, or the messages are small.",
-    "latched": "This reason does not fit: in this job, a node that starts later does not need an old value.",
-    "long": "This reason does not fit: in this job, the work takes only a short time.",
+    "answer": (
+        "This reason does not fit: in this task, the node that sends the data does not need an answer."
+    ),
+    "many": "This reason does not fit: in this task, only one node needs the data.",
+    "newest": "This reason does not fit: in this task, new values are not produced all the time.",
+    "seldom": "This reason does not fit: in this task, the data is needed often, or the messages are small.",
+    "latched": (
+        "This reason does not fit: in this task, a node that starts later does not need an old value."
+    ),
+    "long": "This reason does not fit: in this task, the work takes only a short time.",
 }
 
 
 @part(
     "03.4",
     points=2,
-    goal="Choose a design and a reason for each of six jobs.",
+    goal="Choose a design and a reason for each of six tasks.",
     needs=["decisions"],
 )
 def decide_and_defend(context: CheckContext) -> None:
     """Compare, for each task, the chosen design and then the chosen reason with the right ones."""
     decisions = context.read("decisions")
     context.require(
-        "there is a decision for each job",
+        "there is a decision for each task",
         holds=isinstance(decisions, dict) and set(decisions) == set(JOBS),
         expected=f"a dict with the keys {', '.join(map(repr, JOBS))}",
         actual=", ".join(map(repr, decisions)) if isinstance(decisions, dict) else decisions,
@@ -83,21 +87,24 @@ def decide_and_defend(context: CheckContext) -> None:
             (
                 lambda actual: isinstance(actual, list),
                 (
-                    "Your answer is a list. Write a dict in braces: each key is a job, and each value is a "
-                    "pair (design, reason)."
+                    "Your answer is a list. Write a dict in braces: each key is a task, and each "
+                    "value is a pair (design, reason)."
                 ),
             ),
             (
                 ANYTHING,
-                "The keys have to be the names of the jobs in the table. Compare the names letter by letter.",
+                (
+                    "The keys have to be the names of the tasks in the table. Compare the names "
+                    "letter by letter."
+                ),
             ),
         ],
     )
     decided = of_kind(dict, decisions, "decisions")
     context.require(
-        "each decision is a design and a reason",
+        "each decision is a pair of a design and a reason",
         holds=all(_is_decision(value) for value in decided.values()),
-        expected='such as ("topic", "newest")',
+        expected='a pair such as ("topic", "newest")',
         actual=next((value for value in decided.values() if not _is_decision(value)), ""),
         hints=[
             (
@@ -120,16 +127,16 @@ def decide_and_defend(context: CheckContext) -> None:
     for job, designs in JOBS.items():
         chosen, reason = decided[job]
         context.require(
-            f"{job}: the design",
+            f"{job}: the design fits the task",
             holds=chosen in designs,
             expected="a different design",
             actual=chosen,
             hints=_why_not(job, chosen),
         )
         context.require(
-            f"{job}: the reason",
+            f"{job}: the reason fits the task",
             holds=reason in designs[chosen],
-            expected="a reason that holds for this job and this design",
+            expected="a reason that is true for this task and this design",
             actual=reason,
             hints=HOLLOW[reason],
         )
@@ -140,5 +147,5 @@ def _is_decision(value: object) -> bool:
 
 
 def _why_not(job: str, chosen: str) -> str:
-    action = "This job takes only a moment. Choose an action only for long work that can be cancelled."
+    action = "This task takes only a moment. Choose an action only for long work that can be cancelled."
     return WRONG.get((job, chosen), action)

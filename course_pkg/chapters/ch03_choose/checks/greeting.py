@@ -81,8 +81,8 @@ class Greetings:
 
 
 GREETED = (
-    "Greet five customers once each, in the order of the messages. After each greeting, publish the "
-    "customer's number."
+    "Greet each of five customers once, in the order of the messages. After each greeting, publish "
+    "the customer's number."
 )
 
 
@@ -143,8 +143,11 @@ def _greets(
     context.require(
         "the number is published after the greeting",
         holds=subscription.arrivals[0].at - sent > 0.75 * GREETING,
-        expected=f"a message about {GREETING:g} s after the customer, because say_good_day() takes that time",
-        actual="an earlier message",
+        expected=(
+            f"a message about {GREETING:g} s after the customer's message, because say_good_day() "
+            "takes that time"
+        ),
+        actual="a message before that time",
         hints=(
             "The number was published before the greeting had ended. First call "
             "say_good_day(number), and then publish the number."
@@ -182,7 +185,7 @@ def _starts_again(context: CheckContext, number: int) -> None:
     context.require(
         "no customer is lost",
         holds=subscription.count > 0,
-        expected=f"a greeting for {number} after a second start_greeting()",
+        expected=f"a greeting for {number} after a second call of start_greeting()",
         actual="none",
         hints=(
             "After a second call of start_greeting(), a customer was not greeted. Create the "
@@ -259,8 +262,8 @@ def _greeted(
     context.require(
         "no customer is greeted twice",
         holds=len(seen) == len(set(seen)) and len(said) == len(set(map(str, said))),
-        expected=f"each of {numbers} once",
-        actual=seen if len(seen) > len(set(seen)) else f"say_good_day() for {', '.join(map(str, said))}",
+        expected=f"one greeting for each of {numbers}",
+        actual=seen if len(seen) > len(set(seen)) else f"greetings for {', '.join(map(str, said))}",
         hints=(
             "A customer was greeted twice, because the number arrived a second time. Store the "
             "greeted numbers in a set."

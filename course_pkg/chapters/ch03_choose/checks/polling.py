@@ -18,13 +18,13 @@ SLACK = 0.7  # On a busy machine, a call of poll() may take this many s longer.
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
 NO_PAUSE = "Pause for 1 / rate seconds between two calls."
 NO_END = (
-    "poll() continues after its time is over. Before each call, compare the current time with the start "
-    "time plus `seconds`."
+    "poll() continues after its time is over. Before each call, compare the current time with the "
+    "end time, which is the start time plus the argument `seconds`."
 )
 
 COUNTED = (
-    "Each call also takes time, so do not count the calls. Before each call, compare the current time "
-    "with the time at which poll() has to end."
+    "Each call also takes time, so the number of calls does not show when poll() has to end. Before "
+    "each call, compare the current time with the end time."
 )
 
 
@@ -50,7 +50,7 @@ class Counter:
         return Late(self.slow, answer) if self.slow else answer
 
 
-FOUND = "Return the number of a customer who is there, or who comes later."
+FOUND = "Return the number of the customer who is already there or who comes later."
 
 
 @part(
@@ -85,7 +85,7 @@ def _one_who_is_there(context: CheckContext) -> None:
         hints=_NUMBER,
     )
     context.expect(
-        "it makes no call after a customer was found",
+        "poll() makes no call after it has found a customer",
         expected=1,
         actual=len(counter.asked),
         hints=(
@@ -94,10 +94,10 @@ def _one_who_is_there(context: CheckContext) -> None:
         ),
     )
     context.require(
-        "it calls before it pauses",
+        "poll() makes its first call before it pauses",
         holds=result.took < 0.9,
-        expected="an immediate return if a customer is there",
-        actual=f"a return after {result.took:.1f} s",
+        expected="poll() returns immediately if a customer is there",
+        actual=f"poll() returned after {result.took:.1f} s",
         hints=(
             "A customer was there, but poll() paused before the first call. Call the service "
             "first, and pause only after a response without a customer."
@@ -124,10 +124,10 @@ def _one_who_comes(context: CheckContext) -> None:
         ],
     )
     context.require(
-        "a customer who comes does not wait longer than a pause",
+        "a customer does not wait longer than one pause",
         holds=result.took < after + 1 / rate + SLACK,
-        expected=f"a return about {1 / rate:.1f} s after the customer came",
-        actual=f"a return {result.took - after:.1f} s after the customer came",
+        expected=f"poll() returns about {1 / rate:.1f} s after the customer came",
+        actual=f"poll() returned {result.took - after:.1f} s after the customer came",
         hints=f"poll() called the service too rarely. {NO_PAUSE}",
     )
 
@@ -137,7 +137,7 @@ def _nobody(context: CheckContext) -> None:
     seconds, rate = context.random.number(1.8, 2.4), context.random.number(8.0, 9.0)
     result, _ = _polled(context, counter.answer, seconds=seconds, rate=rate)
     context.expect(
-        "None if no customer comes",
+        "poll() returns None if no customer comes",
         expected=None,
         actual=result.returned(),
         hints=[
@@ -149,30 +149,30 @@ def _nobody(context: CheckContext) -> None:
     # On a busy machine, rospy.Rate makes some pauses shorter.
     if 3 < len(pauses) < seconds * rate + 3 and pauses[len(pauses) // 3] < 0.3 / rate:
         context.fail(
-            "it makes no more calls than the rate allows",
+            "poll() does not make more calls than the rate allows",
             expected=f"a pause of {1 / rate:.2f} s between two calls",
-            actual=f"{len(counter.asked)} calls in groups",
-            hint=f"poll() made several calls in quick succession, and then a long pause. {NO_PAUSE}",
+            actual=f"{len(counter.asked)} calls, several of them without a pause",
+            hint=f"poll() made several calls without a pause, and then made a long pause. {NO_PAUSE}",
         )
     context.require(
-        "it makes no more calls than the rate allows",
+        "poll() does not make more calls than the rate allows",
         holds=len(counter.asked) <= seconds * rate + 2,
         expected=f"at most {seconds * rate + 1:.0f} calls in {seconds:g} s, at {rate:g} per second",
         actual=f"{len(counter.asked)} calls",
         hints=f"poll() made too many calls, and each call costs processor time. {NO_PAUSE}",
     )
     context.require(
-        "it does not give up early",
+        "poll() continues until the time is over",
         holds=result.took > seconds - 1 / rate - 0.2,
         expected=f"calls for {seconds:g} s",
-        actual=f"a return after {result.took:.1f} s",
+        actual=f"poll() returned after {result.took:.1f} s",
         hints=(
             "poll() returned before the time in `seconds` was over. Continue to poll until the end "
             "of this time."
         ),
     )
     context.require(
-        "it makes about as many calls as the rate allows",
+        "poll() makes about as many calls as the rate allows",
         holds=len(counter.asked) >= seconds * rate / 3,
         expected=f"up to {seconds * rate + 1:.0f} calls in {seconds:g} s",
         actual=f"{len(counter.asked)} calls",
@@ -187,7 +187,7 @@ def _nobody_slowly(context: CheckContext) -> None:
     seconds, rate = context.random.number(1.1, 1.4), context.random.number(9.0, 11.0)
     result, _ = _polled(context, counter.answer, seconds=seconds, rate=rate)
     context.require(
-        "it makes about as many calls as the rate allows",
+        "poll() makes about as many calls as the rate allows",
         holds=len(counter.asked) > 1,
         expected="several calls",
         actual=f"{len(counter.asked)} calls",
@@ -204,10 +204,10 @@ def _nobody_slowly(context: CheckContext) -> None:
 def _ends_in_time(context: CheckContext, result: Result, latest: float, hint: str = NO_END) -> None:
     result.returned()
     context.require(
-        "it ends when the time is over",
+        "poll() ends when the time is over",
         holds=result.took < latest + SLACK,
-        expected=f"a return after about {latest:.1f} s",
-        actual=f"a return after {result.took:.1f} s",
+        expected=f"poll() returns after about {latest:.1f} s",
+        actual=f"poll() returned after {result.took:.1f} s",
         hints=hint,
     )
 
@@ -239,13 +239,13 @@ def _polled(
 
 def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
     context.require(
-        "the service in `service` is called",
+        "poll() calls the service whose name is in `service`",
         holds=bool(server.requests),
-        expected="a call of the service in `service`",
+        expected="a call of the service whose name is in `service`",
         actual="no call",
     )
     context.expect(
-        "`patience` is 0 in the request",
+        "the field `patience` of the request is 0",
         expected=0.0,
         actual=server.requests[0]["patience"],
         hints=(
@@ -254,7 +254,7 @@ def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
         ),
     )
     context.expect(
-        "`after` is 0 in the request",
+        "the field `after` of the request is 0",
         expected=0,
         actual=server.requests[0]["after"],
         hints=(

@@ -71,7 +71,7 @@ class Detector:
             return self._watch.wait(after, patience, SILENCE)
         except CameraSilent:
             silence = f"no message from the camera for {SILENCE:g} s"
-            message = f"{silence}, so customers cannot be detected: does shop_camera run?"
+            message = f"{silence}, so customers cannot be detected: check that shop_camera is running"
             raise rospy.ServiceException(message) from None
 
     @contextmanager
@@ -81,7 +81,7 @@ class Detector:
         Raises ServiceException if too many callers are waiting.
         """
         if not self._places.acquire(blocking=False):
-            raise rospy.ServiceException(f"{CALLERS} callers wait already: call again later")
+            raise rospy.ServiceException(f"{CALLERS} other clients are waiting, so call again later")
         try:
             yield
         finally:
@@ -98,5 +98,5 @@ def main() -> None:
     wait_until(detector.has_data, SILENCE)
     with undisturbed():
         rospy.Service("detect_customer", DetectCustomer, detector.handle_detect)
-    rospy.loginfo("Looking out for customers")
+    rospy.loginfo("The detector is ready")
     rospy.spin()

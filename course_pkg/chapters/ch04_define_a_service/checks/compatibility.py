@@ -74,16 +74,16 @@ def _pairs(context: CheckContext) -> list[Pair]:
     text = _text(top, above, below)
 
     def differs(assertion: str, other: str, hint: str) -> Pair:
-        return Pair(f"not compatible: {assertion}", text, other, hint)
+        return Pair(f"the result is False for {assertion}", text, other, hint)
 
     note = f"string NOTE={context.random.word()} # {context.random.word()}\n"
 
     def agrees(assertion: str, other: str) -> Pair:
         hint = (
-            "ROS ignores comments, blank lines and extra spaces, so these two texts are "
-            "compatible. Compare the MD5 sums, not the texts."
+            "ROS ignores comments, blank lines and extra spaces, so these two texts are compatible. "
+            "Compare the MD5 sums, not the texts."
         )
-        return Pair(f"compatible: {assertion}", text, other, hint)
+        return Pair(f"the result is True for {assertion}", text, other, hint)
 
     letter = (
         "One letter of a field's name is different, so the texts are not compatible. Compare "
@@ -91,24 +91,24 @@ def _pairs(context: CheckContext) -> list[Pair]:
     )
     return [
         Pair(
-            "compatible: the same text",
+            "the result is True for two equal texts",
             text,
             text,
             "The two texts are equal, but the result was False. Compare the MD5 sums with ==, "
             "not classes or other objects.",
         ),
-        agrees("one more comment", f"# measured by {context.random.word()}\n{text}"),
+        agrees("an additional comment", f"# measured by {context.random.word()}\n{text}"),
         agrees("a comment after a field", text.replace(above[1], f"{above[1]}  # in metres")),
-        agrees("blank lines", text.replace(below[0], f"\n{below[0]}\n")),
-        agrees("more spaces in a line", text.replace(above[0], above[0].replace(" ", "   ") + "  ")),
-        differs("another letter in a name", text.replace(names[1], _slip(names[1])), letter),
+        agrees("additional blank lines", text.replace(below[0], f"\n{below[0]}\n")),
+        agrees("additional spaces in a line", text.replace(above[0], above[0].replace(" ", "   ") + "  ")),
+        differs("a different letter in a name", text.replace(names[1], _slip(names[1])), letter),
         differs(
-            "another type",
+            "a different type",
             text.replace(above[2], f"uint64 {names[2]}"),
             TYPES,
         ),
         differs(
-            "two fields in another order",
+            "a different order of two fields",
             _text(top, [above[1], above[0], above[2]], below),
             (
                 "The order of the fields is different, so the texts are not compatible. The MD5 "
@@ -116,13 +116,13 @@ def _pairs(context: CheckContext) -> list[Pair]:
             ),
         ),
         differs(
-            "a field moved from request to response",
+            "a field that is moved from the request to the response",
             _text(top, above[:2], [above[2], *below]),
             "One field is in the request of one text, but in the response of the other text, so the "
             "texts are not compatible. The line --- separates the request from the response.",
         ),
         differs(
-            "another value of a constant",
+            "a different value of a constant",
             text.replace(f"={value}", f"={value + 1}"),
             (
                 "The value of a constant is different, so the texts are not compatible. The names "
@@ -130,32 +130,32 @@ def _pairs(context: CheckContext) -> list[Pair]:
             ),
         ),
         differs(
-            "an array for one value",
+            "an array in place of a single value",
             text.replace(above[0], above[0].replace(" ", "[] ", 1)),
             TYPES,
         ),
         differs(
-            "one field fewer",
+            "a missing field",
             _text(top, above, below[:1]),
             (
                 "One field is missing in one of the texts, so the texts are not compatible. Each field "
                 "of the request and of the response is part of the MD5 sum."
             ),
         ),
-        agrees("more spaces in a line", text.replace("=", " = ")),
+        agrees("additional spaces in a line", text.replace("=", " = ")),
         Pair(
-            "compatible: a constant below the fields",
+            "the result is True for a constant below the fields",
             text,
             _text([], [*above, *top], below),
-            "Only the constants have another place in the text, and the MD5 sum does not depend on this "
-            "place. Compare the MD5 sums of both texts.",
+            "Only the positions of the constants differ, and the MD5 sum does not depend on these "
+            "positions. Compare the MD5 sums of both texts.",
         ),
         Pair(
-            "not compatible: another text after # in a string constant",
+            "the result is False for a different text after # in a string constant",
             note + text,
             f"{note.strip()}s\n{text}",
-            "In a string constant, the value is the whole text after the =, even if this text contains "
-            "a #. Do not remove comments: compare the MD5 sums.",
+            "In a string constant, the value is the whole text after the =, even if this text "
+            "contains a #. Do not remove comments yourself: compare the MD5 sums.",
         ),
     ]
 

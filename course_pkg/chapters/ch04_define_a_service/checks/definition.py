@@ -18,7 +18,7 @@ FIELDS = "Write the fields of the request and the response, and the types of the
 @part(
     "04.1",
     points=2,
-    goal="Write Lamp.srv as described in the exercise.",
+    goal="Write Lamp.srv as the exercise describes it.",
     needs=[f"file:{FILE}"],
     deadline=60.0,
     goals={FIELDS: 3, "Write the constants of the request.": 1},
@@ -40,7 +40,7 @@ def the_lamp(context: CheckContext) -> None:
     folder = built(context, given=[FILE])
     md5, printed = md5_in(context, folder)
     context.require(
-        "the MD5 sum is the same as in the description",
+        "the MD5 sum of the definition is right",
         holds=md5 == asked.md5,
         expected=asked.md5,
         actual=md5 or printed,
@@ -79,13 +79,16 @@ def _about_names(half: str, wanted: list[str], found: list[str], text: str) -> s
     extra = [name for name in found if name not in wanted]
     if not missing and not extra:
         return (
-            "Your file contains all fields, but in the wrong order. Write the fields in the same order as "
-            "in the description."
+            "Your file contains all fields, but in the wrong order. Write the fields in the same "
+            "order as in the exercise."
         )
     if missing and (near := difflib.get_close_matches(missing[0], extra, n=1, cutoff=0.5)):
-        return f"{_line(text, near[0])}{near[0]} should be {missing[0]}. Compare the names letter by letter."
+        return (
+            f"{_line(text, near[0])}the field {near[0]} has to be called {missing[0]}. Compare the "
+            "names letter by letter."
+        )
     if missing and _line(text, missing[0]):
-        where = f"{_line(text, missing[0])}{missing[0]}"
+        where = f"{_line(text, missing[0])}the field {missing[0]}"
         return f"{where} is on the wrong side of the line ---. Move this field to the {half}."
     if missing:
         return f"The field {missing[0]} is missing. Add this field to the {half}."
@@ -95,8 +98,8 @@ def _about_names(half: str, wanted: list[str], found: list[str], text: str) -> s
             f"{extra[0].upper()}=… with the value of the constant."
         )
     return (
-        f"{_line(text, extra[0])}the field {extra[0]} is not part of the {half} in the "
-        "description. Remove this field."
+        f"{_line(text, extra[0])}the field {extra[0]} is not part of the {half} in the exercise. "
+        "Remove this field."
     )
 
 
@@ -106,7 +109,7 @@ def _types(context: CheckContext, half: str, asked: MessageType, given: MessageT
     pairs = zip(asked.fields, given.fields, strict=True)
     wrong = next((pair for pair in pairs if pair[0].type != pair[1].type), None)
     context.require(
-        f"the {half} has the types of the description",
+        f"the fields of the {half} have the right types",
         holds=wrong is None,
         expected=", ".join(wanted),
         actual=", ".join(found),
@@ -115,11 +118,11 @@ def _types(context: CheckContext, half: str, asked: MessageType, given: MessageT
 
 
 def _about_type(name: str, wanted: str, found: str, text: str) -> str:
-    where = f"{_line(text, name)}{name} "
+    where = f"{_line(text, name)}the field {name} "
     base = found.partition("[")[0]
     if "[" in wanted and "[" not in found:
         return (
-            f"{where}is a single value in your file, but it has to be an array. Write brackets "
+            f"{where}is a single value in your file, but the exercise needs an array. Write brackets "
             f"after the type: {wanted}."
         )
     if wanted.endswith("[]") and "[" in found and not found.endswith("[]"):
@@ -135,10 +138,10 @@ def _about_type(name: str, wanted: str, found: str, text: str) -> str:
         return f"{where}is an array in your file, but the exercise needs a single value: {wanted}."
     if base == "float64":
         return (
-            f"{where}has the type {found} in your file, and this type is too large. Copy the type from "
-            f"the description: {wanted}."
+            f"{where}has the type {found} in your file, and this type is too large. Copy the type "
+            f"from the exercise: {wanted}."
         )
-    return f"{where}has the wrong type in your file. Copy the type from the description: {wanted}."
+    return f"{where}has the wrong type in your file. Copy the type from the exercise: {wanted}."
 
 
 def _constants(context: CheckContext, asked: ServiceType, given: ServiceType, text: str) -> None:
@@ -162,18 +165,18 @@ def _about_constants(wanted: list[str], found: list[str], below: list[str], text
         )
     if sorted(wanted) == sorted(found):
         return (
-            "Your file contains all constants, but in the wrong order. Write the constants in the same "
-            "order as in the description."
+            "Your file contains all constants, but in the wrong order. Write the constants in the "
+            "same order as in the exercise."
         )
     wrong = [each for each in found if each not in wanted]
     if wrong:
         name = wrong[0].partition(" ")[2].partition("=")[0]
         right = next((each for each in wanted if f" {name}=" in each), "")
         return (
-            f"{_line(text, name)}{wrong[0]} is wrong. Write {right}."
+            f"{_line(text, name)}{wrong[0]} is wrong. The constant has to be {right}."
             if right
-            else f"{_line(text, name)}the description has no constant with the name {name}. Compare "
-            "the names letter by letter."
+            else f"{_line(text, name)}the exercise has no constant with the name {name}. Compare the "
+            "names letter by letter."
         )
     missing = [each for each in wanted if each not in found]
     return f"Write each constant on a separate line, such as {missing[0]}." if missing else ""

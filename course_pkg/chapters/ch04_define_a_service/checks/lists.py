@@ -22,13 +22,13 @@ catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
 add_service_files(FILES lamp.srv)
 # generate_messages()
 """
-GENERATED = "Make the build pass, and generate the type Lamp."
+GENERATED = "Make the build succeed, and generate the type Lamp."
 
 
 @part(
     "04.4",
     points=2,
-    goal="Repair CMakeLists.txt, so that the build passes and Python can import the type Lamp.",
+    goal="Repair CMakeLists.txt, so that the build succeeds and Python can import the type Lamp.",
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
@@ -47,7 +47,7 @@ def the_list_file(context: CheckContext) -> None:
         hints=_why_no_type(text),
     )
     context.require(
-        "it is the type of Lamp.srv",
+        "the generated type is the type that Lamp.srv defines",
         holds=md5 == lamp_class()._md5sum,
         expected=lamp_class()._md5sum,
         actual=md5,

@@ -73,7 +73,7 @@ def _hint(text: str, package: str, tag: str) -> str:
     if elsewhere:
         return (
             f"The tag {elsewhere[0].name} in line {elsewhere[0].line} is not enough for {package}. "
-            f"Also add {_an(tag)} for {package}."
+            f"Also add {_an(tag)} tag for {package}."
         )
     if package == "rospy":
         return (

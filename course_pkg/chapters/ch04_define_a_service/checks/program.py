@@ -27,8 +27,8 @@ ENDINGS = (  # Each entry contains a pattern for the program's output, and a hin
     ),
     (
         r"no attribute '_request_class'",
-        "Your program passed the class of the request or of the response to rospy.Service. "
-        "Pass the class of the type: Lamp.",
+        "Your program passed the class of the request or of the response to rospy.Service. Pass the "
+        "class of the service type instead, which is Lamp.",
     ),
     (
         r"(?s)(\w+)\.srv import.*No module named '\1'",
@@ -92,7 +92,7 @@ def the_program(context: CheckContext) -> None:
             "The file begins with an invisible character, the byte order mark (BOM). Save the "
             "file as UTF-8 without BOM."
         ),
-        assertion="its first line is a shebang that asks for Python 3",
+        assertion="the first line of the script is a shebang with python3",
         program="python",
     )
     folder = built(context, given=[f"{PACKAGE}/scripts"])
@@ -130,13 +130,13 @@ def _serves(context: CheckContext, running: Running, name: str, node: str) -> No
             others = [service.name for service in context.look().services if service.node == node]
             done = running.stop()
             context.fail(
-                "rosrun starts it, and it serves /lamp",
+                "rosrun starts the program, and the program serves /lamp",
                 expected="a server that keeps running",
                 actual=_seen(done.status, done.out),
                 hint=_why_not(done.status, done.out, others),
             )
         time.sleep(LOOK)
-    context.require("rosrun starts it, and it serves /lamp", holds=True)
+    context.require("rosrun starts the program, and the program serves /lamp", holds=True)
 
 
 def _seen(status: int | None, printed: str) -> str:
@@ -203,7 +203,7 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
         ],
     )
     context.expect(
-        "rgb is red, green and blue for ON and BLINK, and otherwise three zeros",
+        "rgb contains the colour of the request for ON and BLINK, and three zeros for all other modes",
         expected=[red, green, blue] if mode in (1, 2) else [0.0, 0.0, 0.0],
         actual=list(response.rgb),
         near=1e-4,
@@ -217,8 +217,8 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
             ),
             (
                 [0.0, 0.0, 0.0],
-                "rgb is 0, because a field without a value is 0. Set rgb to the values r, g and b "
-                "of request.colour.",
+                "rgb contains only zeros, because ROS sends zeros for an array that you do not set. "
+                "Set rgb to the values r, g and b of request.colour.",
             ),
             (
                 [red, green, blue],
@@ -226,12 +226,12 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
             ),
             (
                 ANYTHING,
-                "The values in rgb are wrong. Return red, green and blue of the request, in this order.",
+                "The values in rgb are wrong. Return the values r, g and b of request.colour in this order.",
             ),
         ],
     )
     context.expect(
-        "total is the sum of the seconds",
+        "total is the sum of all values in the field seconds",
         expected=sum(seconds),
         actual=response.total,
         near=1e-3,
@@ -242,10 +242,10 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
             ),
             (
                 0.0,
-                "The total is 0, because a field without a value is 0. Set total to the sum of all "
-                "values in request.seconds.",
+                "The total is 0, because ROS sends 0 for a number that you do not set. Set total to "
+                "the sum of all values in request.seconds.",
             ),
-            (float(len(seconds)), "total is the number of values. Add up the values instead."),
-            (ANYTHING, "total is wrong. Add up all values: sum(request.seconds)."),
+            (float(len(seconds)), "The total is the number of the values. Add up the values instead."),
+            (ANYTHING, "The total is wrong. Add up all values in request.seconds."),
         ],
     )

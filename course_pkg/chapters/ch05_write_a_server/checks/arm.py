@@ -25,7 +25,10 @@ START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
 ..."""
 MOVES = "Serve /move_arm and /maintenance, and count the moves."
-CLOSES = "Shut /move_arm down. Return the state after the call, and return whether the state changed."
+CLOSES = (
+    "When /maintenance is called with True, shut /move_arm down. Return the state after the call, "
+    "and whether it changed."
+)
 
 
 @part(
@@ -38,7 +41,7 @@ CLOSES = "Shut /move_arm down. Return the state after the call, and return wheth
     needs=[f"file:{FILE}"],
     deadline=30.0,
     start=START,
-    goals=[MOVES, CLOSES, "After the maintenance, serve /move_arm again, and continue to count."],
+    goals=[MOVES, CLOSES, "After the maintenance, serve /move_arm again, and continue to count the moves."],
 )
 def close_for_maintenance(context: CheckContext) -> None:
     """Start the program; call /move_arm, close this service twice, open it twice, and call it again."""
@@ -168,7 +171,10 @@ def _switches(context: CheckContext, response: Message, *, closed: bool, changed
         'the message of /maintenance is "closed" or "open"',
         expected="closed" if closed else "open",
         actual=response.message,
-        hints='The message has to be the state after the call: "closed" for True, "open" for False.',
+        hints=(
+            'The message has to be the state after the call: "closed" for data=True, and "open" for '
+            "data=False."
+        ),
     )
     context.expect(
         "success shows whether the call changed the state",
@@ -187,7 +193,7 @@ def _switches(context: CheckContext, response: Message, *, closed: bool, changed
 
 def _is_closed(context: CheckContext, address: ServiceSeen | None) -> None:
     context.require(
-        "during maintenance, the master has no /move_arm",
+        "during maintenance, /move_arm is not registered with the master",
         holds=not context.look().service(MOVE),
         expected=f"no {MOVE}",
         actual=f"{MOVE} is registered",
@@ -196,7 +202,7 @@ def _is_closed(context: CheckContext, address: ServiceSeen | None) -> None:
     probes = [service_probe(MOVE, address.uri)] if address else []
     ask_all(probes, 1.0)
     context.require(
-        "during maintenance, no server answers at its address",
+        "during maintenance, no server answers at the address of /move_arm",
         holds=not any("type" in header_fields(probe.answer) for probe in probes),
         expected="no answer",
         actual="an answer",
@@ -209,7 +215,7 @@ def _is_closed(context: CheckContext, address: ServiceSeen | None) -> None:
 
 def _can_be_imported(context: CheckContext, done: Finished) -> None:
     context.require(
-        "an import of the file starts nothing",
+        "an import of the file does not start the program",
         holds=done.status == IMPORTED and not (done.out + done.err).strip(),
         expected="an import that ends",
         actual="an import that does not end" if done.status is None else telling_line(done.out + done.err),
@@ -226,8 +232,8 @@ def _can_be_imported(context: CheckContext, done: Finished) -> None:
 SWITCHES: Hints = [
     (
         matches("already registered"),
-        "The program created /move_arm, although it already served /move_arm. Create it only after "
-        "shutdown(), and store each new rospy.Service object in the same variable.",
+        "The program created /move_arm, although it already served /move_arm. Create /move_arm again "
+        "only after shutdown(), and store each new rospy.Service object in the same variable.",
     ),
     (
         matches("NoneType|shutdown"),

@@ -21,7 +21,7 @@ MANY = 6
 # The pattern matches an error message from the student's handler, but no message of rospy itself.
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
 AREA, VOLUME = "Return the area of the floor.", "Return the volume."
-MEASURED = "Measure a box without a negative side."
+MEASURED = "Return the area and the volume of a box without a negative side."
 REFUSED = "Refuse a negative side with a rospy.ServiceException."
 NAMED = "Write the name and the value of the side in the error message."
 
@@ -59,13 +59,22 @@ def area_and_volume(context: CheckContext) -> None:
 
 def _about_volume(area: float, height: float) -> Hints:
     return [
-        (0.0, "The volume is 0, because a field without a value is 0. Set the field `volume`."),
+        (
+            0.0,
+            (
+                "The volume is 0, because ROS sends 0 for a number that you do not set. Set the field "
+                "`volume`."
+            ),
+        ),
         (
             area,
             "The field `volume` contains the area. Set this field to the product of all three sides.",
         ),
         (area + height, "Your volume is area + height. Multiply by the height; do not add the height."),
-        (area * height * 1e6, "Your volume is in cubic centimetres. Do not convert the metres."),
+        (
+            area * height * 1e6,
+            ("Your volume is in cubic centimetres. Do not convert the sides: return cubic metres."),
+        ),
         (
             lambda actual: abs(actual - area * height) <= 1,
             "Your volume is rounded. Return all digits of the volume.",
@@ -76,7 +85,7 @@ def _about_volume(area: float, height: float) -> Hints:
 
 def _about_area(width: float, length: float, height: float) -> Hints:
     return [
-        (0.0, "The area is 0, because a field without a value is 0. Set the field `area`."),
+        (0.0, "The area is 0, because ROS sends 0 for a number that you do not set. Set the field `area`."),
         (width + length, "Your area is width + length. Multiply the two sides; do not add them."),
         (
             width * height,
@@ -87,7 +96,10 @@ def _about_area(width: float, length: float, height: float) -> Hints:
             "The field `area` contains the volume. In the response, the area comes first, and "
             "then the volume.",
         ),
-        (width * length * 1e4, "This area is in square centimetres. Use the sides in metres, as they are."),
+        (
+            width * length * 1e4,
+            ("This area is in square centimetres. Do not convert the sides, because they are in metres."),
+        ),
         (
             lambda actual: abs(actual - width * length) <= 1,
             "The area is rounded. Return the area without rounding.",
@@ -128,7 +140,7 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
         response = get_geometry(**sides)
         area = sides["width"] * sides["length"]
         context.expect(
-            "a box without negative sides is measured",
+            "the handler measures a box without negative sides",
             expected=[area, area * sides["height"]],
             actual=[response.area, response.volume],
             near=1e-3,
@@ -156,19 +168,19 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
     The error message must contain the name of the first negative side.
     """
     error = get_geometry.refused(
-        "a negative side is refused",
+        "the handler refuses a negative side",
         saying="responded with an error",
         hints=[
             (
                 lambda actual: isinstance(actual, dict),
-                "The server measured a box with a negative side. Compare each side with zero "
-                "first, and refuse each negative value, for example -0.5.",
+                "The server measured a box with a negative side. Before you calculate, compare each "
+                "side with zero, and refuse each negative value, for example -0.5.",
             )
         ],
         **_box(context, negative),
     )
     context.require(
-        "the refusal is a rospy.ServiceException",
+        "the handler raises a rospy.ServiceException",
         holds=bool(matches(OWN_TEXT).search(error)),
         expected="service cannot process request: …, with your own message",
         actual=error,
@@ -196,7 +208,7 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
     numbers = [float(number) for number in re.findall(NUMBER, reason)]
     with context.goal(NAMED):
         context.require(
-            "the message names the side and its value",
+            "the error message contains the name and the value of the side",
             holds=named == [side]
             and len(numbers) <= MANY
             and any(abs(number - value) < 0.01 for number in numbers),

@@ -18,8 +18,8 @@ NEW_AND_OFF = "handle_switch(data=False) of a new Switch()"
 MESSAGE: list[tuple[Condition, str]] = [
     (
         "",
-        "The message is empty, because a string field without a value is empty. Set the message to "
-        '"on" or "off".',
+        "The message is empty, because ROS sends an empty string for a string that you do not set. "
+        'Set the message to "on" or "off".',
     ),
     (matches("True|False"), 'The message is "True" or "False". Convert this value to "on" or "off".'),
     (
@@ -67,7 +67,7 @@ ELSEWHERE = {
         "The message is the position before the call. Change the position first, and then set the message."
     ),
 }
-COUNTED = "In the field `message`, return how many calls have arrived since the last reset."
+COUNTED = "In the field `message`, return the number of calls since the last reset."
 SUCCESS = "Return success=True."
 POSITION = "In the field `message`, return the position after the call."
 MOVED = "In the field `success`, return whether the switch moved."
@@ -123,20 +123,20 @@ def a_counter_that_resets(context: CheckContext) -> None:
                     hints=[
                         (
                             False,
-                            "success is False, because a bool field without a value is False. Set "
-                            "success to True.",
+                            "success is False, because ROS sends False for a bool that you do not "
+                            "set. Set success to True.",
                         )
                     ],
                 )
             context.expect(
-                "after each reset, the message counts 1, 2, 3",
+                "after each reset, the messages of the calls are 1, 2, 3",
                 expected=str(number),
                 actual=response.message,
                 hints=[
                     (
                         "",
-                        "The message is empty, because a string field without a value is "
-                        "empty. Set the message to the count.",
+                        "The message is empty, because ROS sends an empty string for a string that "
+                        "you do not set. Set the message to the count.",
                     ),
                     (matches(r"^0\d"), "The message begins with an extra zero. Use str(self.count)."),
                     (
@@ -167,13 +167,10 @@ def a_counter_that_resets(context: CheckContext) -> None:
             before = response.message
     context.prepare(ANOTHER_CLIENT)
     context.expect(
-        "after each reset, the message counts 1, 2, 3",
+        "after each reset, the messages of the calls are 1, 2, 3",
         expected=str(int(before) + 1),
         actual=context.run("another_client", worded="a call from another client").value,
-        hints=(
-            "Each client got a different count. Use the same number for all clients: store "
-            "this number in `self`."
-        ),
+        hints=("Each client has a separate count. Store one count for all clients in `self`."),
     )
     _starts_from_zero(context)
     context.fulfilled(COUNTED)
@@ -190,7 +187,7 @@ def _starts_from_zero(context: CheckContext) -> None:
     new = context.run("a_new_counter", Its("Counter"), worded="handle_count() of a new Counter()")
     if not new.error and new.value != "1":
         context.fail(
-            "after each reset, the message counts 1, 2, 3",
+            "after each reset, the messages of the calls are 1, 2, 3",
             expected="'1'",
             actual=repr(new.value),
             hint="A new counter did not start from zero. Set the count to zero in `__init__`, and "
@@ -232,7 +229,7 @@ def a_switch_that_tells(context: CheckContext) -> None:
     turn(data=False)
     with context.goal(POSITION):
         context.expect(
-            "data=False means off",
+            'after a call with data=False, the message is "off"',
             expected="off",
             actual=turn(data=False).message,
             hints=[

@@ -26,7 +26,7 @@ def read_the_arguments(context: CheckContext) -> None:
     Later, call the student's function with too few numbers, with too many numbers, and with a word.
     """
     name_first = (
-        "The first item of the list is the name of the program. Read the sides from the second item on."
+        "The first item of the list is the name of the program. Skip this item when you read the sides."
     )
     sides = context.random.numbers(3, 0.5, 9.0)
     texts = [str(side) for side in sides]
@@ -43,8 +43,8 @@ def read_the_arguments(context: CheckContext) -> None:
         hints=[
             (
                 None,
-                "The function returned None. Read the numbers from `argv`, after the name of "
-                "the program. Note that 1.5 is a number, too.",
+                "The function returned None, although `argv` contains three numbers after the name "
+                "of the program. Note that 1.5 is a number, too.",
             ),
             (
                 lambda actual: all(isinstance(item, str) for item in actual),
@@ -95,13 +95,13 @@ def read_the_arguments(context: CheckContext) -> None:
         )
     context.fulfilled(NUMBERS)
     context.expect(
-        "None when there are too few",
+        "the function returns None for fewer than three numbers",
         expected=None,
         actual=context.run("read_sides", [program, *texts[:2]], hints=_ENDS).returned(),
         hints="Two numbers are not enough. Return None in this case.",
     )
     context.expect(
-        "None when there are too many",
+        "the function returns None for more than three numbers",
         expected=None,
         actual=context.run("read_sides", [program, *texts, "1.0"], hints=_ENDS).returned(),
         hints="Four numbers are too many. Return None, and do not ignore the fourth number.",
@@ -112,7 +112,7 @@ def read_the_arguments(context: CheckContext) -> None:
         [texts[0], f"float({texts[1]})", texts[2]],
     ):
         context.expect(
-            "None when one is not a number",
+            "the function returns None if an argument is not a number",
             expected=None,
             actual=context.run(
                 "read_sides",
@@ -145,9 +145,10 @@ def _in_a_random_order(context: CheckContext, program: str) -> None:
     for count in context.random.shuffled(counts):
         numbers = context.random.numbers(count, 0.5, 9.0)
         context.expect(
-            {2: "None when there are too few", 3: "three numbers are returned"}.get(
-                count, "None when there are too many"
-            ),
+            {
+                2: "the function returns None for fewer than three numbers",
+                3: "three numbers are returned",
+            }.get(count, "the function returns None for more than three numbers"),
             expected=numbers if count == 3 else None,
             actual=context.run("read_sides", [program, *map(str, numbers)], hints=_ENDS).returned(),
             near=1e-9,

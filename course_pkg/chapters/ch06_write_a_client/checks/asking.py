@@ -41,7 +41,7 @@ def the_geometry_client(context: CheckContext) -> None:
     server = context.serve(name, GEOMETRY, lambda _: Refuse("not today"))
     context.run("measure", name, *context.random.numbers(3, 0.5, 9.0))
     context.require(
-        "it is called once",
+        "the service is called once",
         holds=len(server.requests) == 1,
         expected="one call of a service that refuses the request",
         actual=f"{len(server.requests)} calls",
@@ -71,14 +71,14 @@ def _is_called_once(
         ),
     )
     context.expect(
-        "it is called once",
+        "the service is called once",
         expected=1,
         actual=len(requests),
         hints=[
             (
                 0,
-                "A second call of measure() with the same sides returned the response of the first "
-                "call. Call the service each time measure() runs.",
+                "The check called measure() twice with the same sides, but the second time, your "
+                "function did not call the service. Call the service each time measure() runs.",
             ),
             (
                 ANYTHING,
@@ -95,12 +95,12 @@ def _is_called_once(
         hints=[
             (
                 lambda actual: 0.0 in actual.values(),
-                "The request contains 0 for a side, because a field without a value is 0. "
+                "A side in the request is 0, because ROS sends 0 for a number that you do not set. "
                 "Set all three sides.",
             ),
             (
                 lambda actual: not same([*sorted(sides)], sorted(actual.values()), near=1e-4),
-                "The request contains other numbers than the arguments of measure(). Send the three "
+                "The numbers in the request differ from the arguments of measure(). Send the three "
                 "arguments in every call.",
             ),
             (

@@ -44,12 +44,12 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
     result = context.run("interrupted", Its(function), *args, worded=f"{function}()")
     if result.returned() != "interrupted":
         context.fail(
-            f"an interrupt ends {function}()",
-            expected="the function ends, as it does after you press the Stop button",
-            actual="the function caught the KeyboardInterrupt, and did not end",
+            f"the Stop button ends {function}()",
+            expected="the function ends when you press the Stop button",
+            actual="the function caught the KeyboardInterrupt and did not end",
             hint=(
-                "The function catches the KeyboardInterrupt, too. Catch only the exceptions "
-                f"that you expect: {catch}."
+                "The function catches the KeyboardInterrupt that the Stop button causes. Catch only "
+                f"the exceptions that you expect: {catch}."
             ),
         )
 

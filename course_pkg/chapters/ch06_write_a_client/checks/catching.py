@@ -54,7 +54,7 @@ def catch_what_can_happen(context: CheckContext) -> None:
     context.serve(flat, GEOMETRY, lambda _: {"volume": 0.0})
     for name, expected in ((good, volume), (flat, 0.0)):
         context.expect(
-            "it returns the volume of the response",
+            "the function returns the volume of the response",
             expected=expected,
             actual=context.run("volume_or_none", name, *sides).returned(),
             near=1e-6,
@@ -114,7 +114,7 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
         else:
             server = context.serve(name, GEOMETRY, lambda _, volume=volume: {"volume": volume})
             context.expect(
-                "it returns the volume of the response",
+                "the function returns the volume of the response",
                 expected=volume,
                 actual=context.run("volume_or_none", name, *sides).returned(),
                 near=1e-6,
@@ -122,7 +122,7 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
             )
             if len(server.requests) > 1:
                 context.fail(
-                    "it returns the volume of the response",
+                    "the function returns the volume of the response",
                     expected="one call of the service",
                     actual=f"{len(server.requests)} calls",
                     hint="The function called the service more than once. Call the service only once.",
@@ -147,7 +147,7 @@ def _is_called_once(context: CheckContext, server: ScriptedServer) -> None:
 
 def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDDEN) -> None:
     context.require(
-        "the error of a wrong argument is not caught",
+        "the function does not catch the exception for a wrong argument",
         holds=bool(wrong.error),
         expected=f"an error about {slip}",
         actual=wrong.error or "no error",
@@ -168,7 +168,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
         hints=[
             (
                 matches("^ServiceException.*(responded with|transport)"),
-                "This failed call raised rospy.ServiceException, too. Return None for each "
+                "This failed call also raised rospy.ServiceException. Return None for each "
                 "rospy.ServiceException, and ignore the text of its error message.",
             ),
             (

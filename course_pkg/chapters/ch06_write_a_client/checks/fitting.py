@@ -119,9 +119,9 @@ def does_it_fit(context: CheckContext) -> None:
                 wait_until(again.watch, RUNS, POLL)
             if again.waited > WAITS:
                 context.fail(
-                    f"{each.case.title}: exit status {each.case.status}",
-                    expected="an end after about 2 s",
-                    actual=f"an end after more than {again.waited:.1f} s",
+                    f"{each.case.title}: the exit status is {each.case.status}",
+                    expected="the program ends after about 2 s",
+                    actual=f"the program ends after more than {again.waited:.1f} s",
                     hint="The program waits too long for a missing service. Wait at most 2 s.",
                 )
         if each.case.ends:
@@ -165,7 +165,7 @@ def _cases(context: CheckContext) -> list[Case]:
             ),
             ends=COMPARED,
         ),
-        Case("three numbers", sides, answer, 2, USAGE, calls=0, hint=usage),
+        Case("only three arguments", sides, answer, 2, USAGE, calls=0, hint=usage),
         Case(
             "a word in place of a number",
             [sides[0], "wide", *fits[2:]],
@@ -182,7 +182,7 @@ def _cases(context: CheckContext) -> list[Case]:
             "a word in place of a number", [*sides, "ten"], answer, 2, USAGE, calls=0, hint=usage, ends=USED
         ),
         Case(
-            "a refusal",
+            "a refused call",
             fits,
             lambda _: Refuse("no such box"),
             3,
@@ -248,7 +248,7 @@ class Started:
 
 def _can_be_imported(context: CheckContext, done: Finished) -> None:
     context.require(
-        "an import of the file runs nothing",
+        "an import of the file does not run the program",
         holds=done.status == IMPORTED and not done.out.strip(),
         expected="no output",
         actual=telling_line(done.out),
@@ -266,16 +266,16 @@ def _examine(
     calls = len(server.requests) if server else 0
     outcome = f"{telling_line(done.out)}, and {_ending(done)}"
     context.require(
-        f"{case.title}: {'one request' if case.calls else 'no request'}",
+        f"{case.title}: {'the program sends one request' if case.calls else 'the program sends no request'}",
         holds=calls == case.calls,
-        expected=f"{case.calls} request(s) to the service that is named in the command line",
+        expected=f"{case.calls} request(s) to the service in the command line",
         actual=f"{calls} request(s); {outcome}",
         hints=_about_calls(calls, case, done, elsewhere),
     )
     sides: list[Json] = [float(text) for text in case.arguments[:3]] if calls else []
     if server and calls and not same(sides, [*server.requests[0].values()], near=1e-4):
         context.fail(
-            f"{case.title}: one request",
+            f"{case.title}: the program sends one request",
             expected=f"a request with the sides {sides}",
             actual=f"a request with {server.requests[0]}",
             hint=(
@@ -284,7 +284,7 @@ def _examine(
             ),
         )
     context.require(
-        f"{case.title}: exit status {case.status}",
+        f"{case.title}: the exit status is {case.status}",
         holds=done.status == case.status and "Traceback" not in done.out,
         expected=f"exit status {case.status}, and no traceback",
         actual=outcome,
@@ -298,7 +298,7 @@ def _examine(
         else case.hint,
     )
     context.require(
-        f"{case.title}: it prints {case.prints or 'the error message'}",
+        f"{case.title}: the program prints {case.prints or 'the error message'}",
         holds=_prints(case, done.out),
         expected="a line that begins with usage:"
         if case.prints == USAGE

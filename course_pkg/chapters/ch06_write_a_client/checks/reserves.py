@@ -86,7 +86,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         ),
     )
     context.expect(
-        "then no other service is called",
+        "after a response, no other service is called",
         expected=0,
         actual=len(reserve.requests),
         hints=(
@@ -107,15 +107,15 @@ def ask_the_next_one(context: CheckContext) -> None:
     many = context.random.shuffled(["nowhere", *["refuses"] * context.random.integer(2, 3)])
     for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), many):
         context.expect(
-            "the next service is used if one fails",
+            "if a call fails, the next service is used",
             expected=second,
             actual=_first_of(context, names, *failing, "second").returned(),
             near=1e-6,
             hints=[
                 (
                     None,
-                    "The last service would respond, but the function did not call it. Catch "
-                    "the exception inside the loop, and try all services.",
+                    "The last service can respond, but the function did not call it. Catch the "
+                    "exception inside the loop, and try all services.",
                 )
             ],
         )
@@ -135,7 +135,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         ],
     )
     context.expect(
-        "then no other service is called",
+        "after a response, no other service is called",
         expected=0,
         actual=len(reserve.requests) - before,
         hints=(
@@ -145,15 +145,15 @@ def ask_the_next_one(context: CheckContext) -> None:
     )
     frozen = _first_of(context, names, "frozen", "next")
     context.expect(
-        "the next service is used if one is frozen",
+        "if a service is frozen, the next service is used",
         expected=second,
         actual=frozen.returned(),
         near=1e-6,
         hints=[
             (
                 None,
-                "The first service does not respond, but the second service would respond. "
-                "Call the second service after one second.",
+                "The first service does not respond, but the second service can respond. Call the "
+                "second service after one second.",
             )
         ],
     )
@@ -194,7 +194,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         ],
     )
     context.expect(
-        "None if no service responds",
+        "the function returns None if no service responds",
         expected=None,
         actual=_first_of(context, names, "nowhere", "refuses", hints=_NO_RESPONSE).returned(),
         hints="No service responded, but the function returned a value. Return None after the loop.",
@@ -225,7 +225,9 @@ def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: M
     for working in context.random.shuffled(used):
         failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]
         context.expect(
-            "the next service is used if one fails" if working else "None if no service responds",
+            "if a call fails, the next service is used"
+            if working
+            else "the function returns None if no service responds",
             expected=works.get(working),
             actual=_first_of(context, names, *failing, *filter(None, [working])).returned(),
             near=1e-6,

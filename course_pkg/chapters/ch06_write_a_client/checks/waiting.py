@@ -23,7 +23,7 @@ THERE = "Return True for a service that exists, and False for a service that doe
     ),
     needs=["is_there"],
     deadline=30.0,
-    goals=[THERE, "Return True for a service that starts in time."],
+    goals=[THERE, "Return True for a service that starts within this time."],
 )
 def is_anybody_there(context: CheckContext) -> None:
     """Call the student's function for a running server, and for two names without a running server.
@@ -35,7 +35,7 @@ def is_anybody_there(context: CheckContext) -> None:
     context.absent(killed, stale=True)
     there = context.run("is_there", here, 2.0)
     context.expect(
-        "True for a service that is there",
+        "the function returns True for a service that exists",
         expected=True,
         actual=there.returned(),
         hints=[
@@ -52,7 +52,7 @@ def is_anybody_there(context: CheckContext) -> None:
         ],
     )
     context.require(
-        "no wait for a service that is there",
+        "the function does not wait for a service that exists",
         holds=there.took < 1.0,
         expected="an immediate result",
         actual=f"a result after {there.took:.1f} s",
@@ -62,7 +62,7 @@ def is_anybody_there(context: CheckContext) -> None:
         ),
     )
     context.expect(
-        "True for a service that is there",
+        "the function returns True for a service that exists",
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
@@ -98,19 +98,19 @@ def is_anybody_there(context: CheckContext) -> None:
     waited = context.run("is_there", later, limit, within=2 * limit)
     start.join()
     context.expect(
-        "True for a service that comes in time",
+        "the function returns True for a service that starts in time",
         expected=True,
         actual=waited.returned(),
         hints=[
             (
                 False,
-                f"The service started after {starts} s, and `seconds` was {limit}. Wait for the service up "
-                "to `seconds` seconds.",
+                f"The service started after {starts} s, and the argument `seconds` was {limit}. Wait "
+                "for the service until this time is over.",
             )
         ],
     )
     context.require(
-        "no wait for a service that is there",
+        "the function does not wait for a service that exists",
         holds=waited.took < min(at_this_load(starts + 1.0), limit),
         expected=f"a result soon after {starts} s",
         actual=f"a result after {waited.took:.1f} s",
@@ -128,7 +128,7 @@ def _calls_nothing(context: CheckContext, servers: Sequence[ScriptedServer]) -> 
     requests = sum(len(server.requests) for server in servers)
     if requests:
         context.fail(
-            "it does not call the service",
+            "the function does not call the service",
             expected="no request",
             actual=f"{requests} request(s)",
             hint=(
@@ -153,14 +153,16 @@ def _in_a_random_order(context: CheckContext, servers: list[ScriptedServer]) -> 
             servers.append(context.serve(name, GEOMETRY, lambda _: {}))
         result = context.run("is_there", name, seconds, within=6.0)
         context.expect(
-            "True for a service that is there" if expected else "False for a service that does not come",
+            "the function returns True for a service that exists"
+            if expected
+            else ("the function returns False for a service that does not start"),
             expected=expected,
             actual=result.returned(),
             hints=fixed,
         )
         if not expected and result.took < seconds - EARLY:
             context.fail(
-                "False for a service that does not come",
+                "the function returns False for a service that does not start",
                 expected=f"a result after {seconds} s",
                 actual=f"a result after {result.took:.1f} s",
                 hint=(
@@ -176,8 +178,8 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
     Within 0.5 s, rospy looks for the service twice. A result after 1.4 s is too late.
     """
     too_long = (
-        "The function waited longer than `seconds`. Call wait_for_service only once, and pass "
-        "`seconds` as the timeout."
+        "The function waited longer than the time in `seconds`. Call wait_for_service only once, and "
+        "pass `seconds` as the timeout."
     )
     missing = context.run(
         "is_there",
@@ -193,7 +195,7 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
         ],
     )
     context.expect(
-        "False for a service that does not come",
+        "the function returns False for a service that does not start",
         expected=False,
         actual=missing.returned(),
         hints=[
@@ -202,7 +204,7 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
         ],
     )
     context.require(
-        "it waits no longer than `seconds`",
+        "the function does not wait longer than the given time",
         holds=missing.took < 1.4,
         expected="a result after 0.5 s or a little more",
         actual=f"a result after {missing.took:.1f} s",

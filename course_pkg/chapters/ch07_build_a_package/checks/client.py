@@ -71,14 +71,14 @@ def _prints_the_answer(context: CheckContext, package: BuiltPackage) -> None:
     server.leave()
     sent = [round(float(str(value)), 2) for value in server.requests[0].values()] if server.requests else []
     context.require(
-        "it sends length, width and height",
+        "the client sends length, width and height",
         holds=sent == sides,
         expected=", ".join(map(str, sides)),
         actual=", ".join(map(str, sent)) or _outcome(done),
         hints=_why_not_sent(sent, sides, done),
     )
     context.require(
-        "it sends length, width and height",
+        "the client sends length, width and height",
         holds=len(server.requests) == 1,
         expected="one request",
         actual=f"{len(server.requests)} requests",
@@ -87,7 +87,7 @@ def _prints_the_answer(context: CheckContext, package: BuiltPackage) -> None:
     for name, value in (("area", area), ("volume", volume)):
         shown = _printed(done, name)
         context.require(
-            f"it prints {name}: and the {name} of the response",
+            f"the client prints a line with the {name} in the response",
             holds=shown is not None and abs(shown - value) < 0.006,
             expected=f"{name}: {value:.2f}",
             actual=_outcome(done),
@@ -102,7 +102,7 @@ def _prints_the_answer(context: CheckContext, package: BuiltPackage) -> None:
             ),
         )
     context.require(
-        "after an answer its exit status is 0",
+        "after a response, the exit status of the client is 0",
         holds=done.status == 0,
         expected="exit status 0",
         actual=_outcome(done),
@@ -139,7 +139,7 @@ def _explains_its_usage(context: CheckContext, package: BuiltPackage) -> float:
     lists = (["1.2", "5.2"], ["1.2", "5.2", "8.9", "4"])
     took = [_prints_usage(context, package, arguments) for arguments in lists]
     context.require(
-        "wrong arguments: it sends no request",
+        "if the arguments are wrong, the client sends no request",
         holds=not server.requests,
         expected="no request",
         actual=f"{len(server.requests)} requests",
@@ -157,7 +157,7 @@ def _prints_usage(context: CheckContext, package: BuiltPackage, arguments: list[
     done = _run(package, arguments)
     printed = done.out + done.err
     context.require(
-        "wrong arguments: it prints a usage message and ends with 2",
+        "if the arguments are wrong, the client prints a usage message and ends with exit status 2",
         holds=done.status == 2 and bool(USAGE.search(printed)),
         expected="usage: …, and exit status 2",
         actual=_outcome(done),
@@ -174,7 +174,7 @@ def _why_no_usage(printed: str, arguments: list[str]) -> str:
         )
     if WAITED.search(printed):
         return (
-            "The client waited for the service before it looked at the wrong arguments. First check the "
+            "The client waited for the service before it checked the arguments. First check the "
             "arguments, and then wait for the service."
         )
     if "wide" in arguments and len(arguments) == 3:
@@ -189,7 +189,7 @@ def _ends_with_one_after_a_refusal(context: CheckContext, package: BuiltPackage)
     done = _run(package, ["1.2", "5.2", "8.9"])
     server.leave()
     context.require(
-        "a refused call: it prints the error message and ends with 1",
+        "if the server refuses the call, the client prints the error message and ends with exit status 1",
         holds=done.status == 1 and "no box" in done.out + done.err and "Traceback" not in done.err,
         expected="the error message, and exit status 1",
         actual=_outcome(done),
@@ -206,7 +206,7 @@ def _gives_up_without_a_server(context: CheckContext, package: BuiltPackage, sta
         if done.status != 1 or done.took <= WAITING + SLOWER * start:
             break
     context.require(
-        "no server: after at most 5 s it ends with 1",
+        "if there is no server, the client ends with exit status 1 after at most 5 s",
         holds=done.status == 1 and "Traceback" not in done.err,
         expected="an error message, and exit status 1",
         actual=_outcome(done),
@@ -217,16 +217,16 @@ def _gives_up_without_a_server(context: CheckContext, package: BuiltPackage, sta
         else "The exit status has to be 1 if there is no response. Call sys.exit(1) in this case.",
     )
     context.require(
-        "no server: after at most 5 s it ends with 1",
+        "if there is no server, the client ends with exit status 1 after at most 5 s",
         holds=done.took <= WAITING + SLOWER * start,
-        expected="the end of the program after 5 s",
-        actual=f"the end of the program after {done.took:.1f} s",
+        expected="the client ends after 5 s",
+        actual=f"the client ended after {done.took:.1f} s",
         hints="The client waits longer than 5 s for the service. Set the timeout of wait_for_service to 5 s.",
     )
     context.require(
-        "no server: after at most 5 s it ends with 1",
+        "if there is no server, the client ends with exit status 1 after at most 5 s",
         holds="unavailable" not in done.out + done.err,
-        expected="the end of the program after 5 s",
+        expected="the client ends after 5 s",
         actual=_outcome(done),
         hints=(
             "The client did not wait, but the service can start later than the client. Wait up "

@@ -28,16 +28,16 @@ find_package(catkin REQUIRED COMPONENTS
 catkin_package()
 """
 GENERATED = "Generate the type my_geometry/geometry."
-WAITS = "Make the target my_geometry_programs depend on the generated type."
+WAITS = "Make sure that the target my_geometry_programs depends on the generated type."
 
 
 @part(
     "07.3",
     points=3,
     goal=(
-        "Complete CMakeLists.txt: generate the type my_geometry/geometry, and build the target "
-        "my_geometry_programs after this type. Declare message_runtime as a "
-        "dependency of every package that uses this package."
+        "Complete CMakeLists.txt. The build has to generate the type my_geometry/geometry before it "
+        "builds the target my_geometry_programs. Declare message_runtime as a dependency of every "
+        "package that uses this package."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
@@ -73,9 +73,9 @@ def _has_type(context: CheckContext, package: BuiltPackage, text: str, wanted: s
         hints=_why_no_type(text),
     )
     context.require(
-        "its MD5 sum is the one of geometry.srv",
+        "the MD5 sum of the type is equal to the MD5 sum of geometry.srv",
         holds=md5 == wanted,
-        expected="the MD5 sum of the file in srv",
+        expected="the MD5 sum of the definition in geometry.srv",
         actual="a different MD5 sum",
     )
 
@@ -96,7 +96,7 @@ def _target_waits(context: CheckContext, package: BuiltPackage, text: str, wante
     done = package.folder.command("bash", "-c", line, within=20.0, worded=f"make {TARGET}")
     unknown = "No rule to make target" in done.out + done.err
     context.require(
-        f"{TARGET} is built after the classes",
+        f"the classes are generated before {TARGET} is built",
         holds=done.status == 0 and package.md5("geometry")[0] == wanted,
         expected=f"make {TARGET} generates the classes first",
         actual="there is no such target" if unknown else "no classes",
@@ -132,7 +132,7 @@ def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: st
     # catkin_package writes the names after CATKIN_DEPENDS into the line "set(depends …".
     done = package.folder.command("grep", "-c", "^set(depends .*message_runtime", CONFIGURATION)
     context.require(
-        "a package that uses this package gets message_runtime, too",
+        "every package that uses this package also depends on message_runtime",
         holds=done.status == 0,
         expected="message_runtime in CATKIN_DEPENDS of catkin_package",
         actual="no message_runtime",

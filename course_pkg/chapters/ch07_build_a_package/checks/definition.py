@@ -57,7 +57,7 @@ def _examine(context: CheckContext, package: Package, file: str, name: str, text
     _compare(context, "response", asked.response, given.response, asked.request)
     md5, printed = built(context, package, examined=file, alone=True).md5(name)
     context.require(
-        f"the MD5 sum of {full} is the one of the exercise",
+        f"the MD5 sum of {full} is right",
         holds=md5 == asked.md5,
         expected=asked.md5,
         actual=md5 or printed.rpartition("\n")[2],
@@ -74,7 +74,7 @@ def _compare(
     wanted = [f"{field.type} {field.name}" for field in asked.fields]
     found = [f"{field.type} {field.name}" for field in given.fields]
     context.require(
-        f"the {half} is {', '.join(wanted)}",
+        f"the {half} has the fields {', '.join(wanted)}",
         holds=wanted == found,
         expected=", ".join(wanted),
         actual=", ".join(found) or "no fields",
@@ -94,8 +94,8 @@ def _hint(half: str, asked: MessageType, given: MessageType, other: MessageType)
         )
     if missing and (near := difflib.get_close_matches(missing[0], extra, n=1, cutoff=0.5)):
         return (
-            f"The name {near[0]} is misspelt. Compare this name with the name in the exercise, "
-            "letter by letter."
+            f"The name of the field {near[0]} contains a spelling mistake. Compare this name with the "
+            "name in the exercise, letter by letter."
         )
     if missing:
         return f"The {half} has no field {missing[0]}. Add this field."
@@ -104,10 +104,10 @@ def _hint(half: str, asked: MessageType, given: MessageType, other: MessageType)
     wrong = next((name for name in wanted if wanted[name] != found[name]), "")
     if wrong:
         return (
-            f"The field {wrong} has the type {found[wrong]}. Copy the type from the exercise, "
-            f"{wanted[wrong]}."
+            f"The field {wrong} has the type {found[wrong]}. Copy the type from the exercise, which "
+            f"is {wanted[wrong]}."
         )
     return (
-        "The order of the fields is wrong, and the MD5 sum depends on the order. Begin with "
-        f"{next(iter(wanted))}."
+        "The order of the fields is wrong, and the MD5 sum depends on the order. The first field has "
+        f"to be {next(iter(wanted))}."
     )

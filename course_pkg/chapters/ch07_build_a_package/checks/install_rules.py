@@ -60,7 +60,7 @@ def _installs(context: CheckContext, package: BuiltPackage) -> None:
     done = package.folder.command("bash", "-c", line, within=INSTALLING, worded="catkin_make install")
     problem = re.search(r"cannot find\s+\"(?:\S*/src/)?([^\"]*)\"", done.out + done.err)
     context.require(
-        "catkin_make install works",
+        "catkin_make install succeeds",
         holds=done.status == 0,
         expected="exit status 0",
         actual=f"there is no {problem[1]}" if problem else f"exit status {done.status}",
@@ -79,7 +79,8 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
         f"{script} is installed in {PLACE}, as an executable file",
         holds=there and "7" in modes[places.index(f"{PLACE}/{script}")],
         expected=f"{PLACE}/{script}",
-        actual=", ".join(places) + (", a file that can only be read" if there else "") or "no such file",
+        actual=", ".join(places) + (", a file without the permission to execute it" if there else "")
+        or "no such file",
         hints=_why_not_there(context.source(f"file:{FILE}"), script, places, there=there),
     )
     # catkin_install_python can change the first line, so compare only the other lines.
@@ -107,7 +108,7 @@ def _why_not_there(text: str, script: str, places: list[str], *, there: bool) ->
         )
     if "catkin_install_python" not in rules and "install" not in rules:
         return (
-            "The install rule is missing. Look for catkin_install_python in the generated "
-            "file: a comment shows an example."
+            "The install rule is missing. The generated CMakeLists.txt contains an example in a "
+            "comment: look for catkin_install_python."
         )
     return f"The install rule does not contain {script}. List both scripts after PROGRAMS."

@@ -61,9 +61,10 @@ def the_manifest(context: CheckContext) -> None:
     # If catkin cannot read the file, the build below reports the reason.
     for purpose, tag, packages in NEEDS if _texts(text) else ():
         named = dependencies(text, purpose)
+        kind = "build" if purpose == "build" else "run-time"
         for package in packages:
             context.require(
-                f"it depends on {package} to {purpose}",
+                f"package.xml lists {package} as a {kind} dependency",
                 holds=package in named,
                 expected=f"{tag} for {package}",
                 actual=", ".join(sorted(named)) or "no dependency",
@@ -75,14 +76,14 @@ def the_manifest(context: CheckContext) -> None:
     for name, (generated, hint) in GENERATED.items():
         found = " ".join(texts[name].split())
         context.require(
-            f"the {name} is your own",
+            f"the {name} is not the generated text",
             holds=found not in ("", generated),
-            expected="your own text",
+            expected="a text that you wrote",
             actual=found or "no text",
             hints=hint,
         )
     context.require(
-        "the address of the maintainer is your own",
+        "the address of the maintainer is not the generated address",
         holds="@todo.todo" not in texts["maintainer"],
         expected="an address such as name@example.com",
         actual="the generated address",

@@ -93,7 +93,7 @@ def the_on_off_server(context: CheckContext) -> None:
         context.fulfilled(ANSWERED)
         for number in (2, -1, context.random.integer(3, 2_000_000_000)):
             service.refused(
-                "any other number is refused, and the error message names the number",
+                "any other number is refused, and the error message contains the number",
                 saying=(f"cannot process request: .*(?<!\\d){number}", f"contains {number}"),
                 number=number,
                 hints=[
@@ -147,14 +147,14 @@ def the_on_off_client(context: CheckContext) -> None:
     sent = [int(str(value)) for request in server.requests for value in request.values()]
     server.leave()
     context.require(
-        "it calls /onOff COUNT times",
+        "the client calls /onOff COUNT times",
         holds=len(sent) == calls,
         expected=f"{calls} calls",
         actual=f"{len(sent)} calls, and {_ending(done)}",
         hints=_why_not_sent(len(sent), done),
     )
     context.require(
-        "each number is 0 or 1, at random",
+        "each number is a random number, 0 or 1",
         holds=set(sent) == {0, 1} and all(sent[size:] != sent[:-size] for size in range(1, PATTERN + 1)),
         expected="both numbers, in a random order",
         actual=" ".join(map(str, sent)),
@@ -164,7 +164,7 @@ def the_on_off_client(context: CheckContext) -> None:
     wanted = [f"{number}: {states[number % 2]}" for number in sent]
     printed = [line.strip() for line in done.out.splitlines() if re.match(r"\s*\d+\s*:", line)]
     context.require(
-        "it prints NUMBER: STATE for each call",
+        "the client prints NUMBER: STATE for each call",
         holds=printed == wanted,
         expected="one line for each call, such as 1: ON",
         actual=" / ".join(done.out.splitlines()[:3]) or "no output",
@@ -174,7 +174,7 @@ def the_on_off_client(context: CheckContext) -> None:
         ),
     )
     context.require(
-        "it ends with the status 0",
+        "the client ends with exit status 0",
         holds=done.status == 0,
         expected="exit status 0",
         actual=_ending(done),
@@ -197,7 +197,10 @@ def _why_not_sent(count: int, done: Finished) -> str:
             "The client called the service only once. Read the number of calls from the first "
             "argument: int(sys.argv[1])."
         )
-    return "The number of calls is wrong. The first argument is the number of calls that the client makes."
+    return (
+        "The number of calls is wrong. The first argument contains the number of calls that the "
+        "client has to make."
+    )
 
 
 def _ending(done: Finished) -> str:

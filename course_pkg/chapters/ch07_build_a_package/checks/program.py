@@ -47,8 +47,8 @@ ENDINGS = (  # Each entry contains a pattern for the program's output, and a hin
     (r"rospy\.init_node\(\) first", "A service needs a node. Call rospy.init_node before rospy.Service."),
     (
         r"no attribute '_request_class'",
-        "Your program passed the class of the request or of the response. Pass the class of "
-        "the type to rospy.Service.",
+        "Your program passed the class of the request or of the response. Pass the class of the "
+        "service type to rospy.Service.",
     ),
     (
         r"(?s)(\w+)\.srv import.*No module named '\1'",
@@ -145,7 +145,7 @@ def serves(
     context: CheckContext, running: Running, package: BuiltPackage, program: Program, name: str, node: str
 ) -> None:
     """Wait until the node `node` offers the service `name`; if this takes too long, report the reason."""
-    assertion = f"rosrun starts it, and it serves {program.service}"
+    assertion = f"rosrun starts the program, and the program serves {program.service}"
     deadline = time.monotonic() + STARTING
     while (found := context.look().service(name)) is None:
         if running.status is not None or time.monotonic() > deadline:
@@ -165,12 +165,13 @@ def serves(
         time.sleep(POLL)
     context.require(assertion, holds=True)
     context.require(
-        f"its node has the name {program.node}",
+        f"the name of the node is {program.node}",
         holds=found.node == node,
         expected=program.node,
         actual=found.node.rpartition("/")[2],
         hints=(
-            f'The name of the node is wrong. Call rospy.init_node("{program.node}"), without anonymous=True.'
+            f'The name of the node is wrong. Pass "{program.node}" to rospy.init_node, without '
+            "anonymous=True."
         ),
     )
     require_served_by_program(context, running, name)

@@ -46,8 +46,8 @@ COMMANDS = (  # Each entry contains the pattern, the name and the hint of a requ
     "07.7",
     points=1,
     goal=(
-        "Write README.md with a title and code blocks. The commands build the package, source "
-        "the workspace, start the server and call the service."
+        "Write README.md with a title and code blocks. The code blocks contain the commands that "
+        "build the package, source the workspace, start the server and call the service."
     ),
     needs=[f"file:{FILE}"],
 )
@@ -56,9 +56,9 @@ def the_readme(context: CheckContext) -> None:
     text = context.source(f"file:{FILE}")
     first = text.strip().partition("\n")[0]
     context.require(
-        "it begins with a title",
+        "README.md begins with a title",
         holds=bool(re.match(r"# \S", first)),
-        expected="# and a title",
+        expected="a line with #, a space and a title",
         actual=first,
         hints="The title is missing. Write a line that begins with # and a space.",
     )
@@ -66,7 +66,7 @@ def the_readme(context: CheckContext) -> None:
     lines = [line.strip().removeprefix("$ ") for block in BLOCK.findall(shown) for line in block.splitlines()]
     commands = "\n".join(line for line in lines if not PRINTED.match(line))
     context.require(
-        "it has commands in a code block",
+        "README.md contains commands in a code block",
         holds=bool(commands),
         expected="lines between ``` and ```",
         actual="only comments" if any(lines) else "no code block",
@@ -86,7 +86,7 @@ def the_readme(context: CheckContext) -> None:
     places = [_place(context, commands, *command) for command in COMMANDS]
     places.append(_place_of_call(context, commands))
     context.require(
-        "the commands are in the order in which they are typed",
+        "the commands are in the right order",
         holds=places == sorted(places),
         expected="build, source, start, call",
         actual=" / ".join(commands[place:].partition("\n")[0] for place in sorted(places)),
@@ -101,7 +101,7 @@ def _place(context: CheckContext, commands: str, pattern: str, name: str, hint: 
     """Assert that the README contains the command `name`; return the position of its first occurrence."""
     found = re.search(pattern, commands)
     context.require(
-        f"it contains {name}",
+        f"README.md contains {name}",
         holds=found is not None,
         expected=name,
         actual=commands.replace("\n", " / ")[:120],
@@ -114,7 +114,7 @@ def _place_of_call(context: CheckContext, commands: str) -> int:
     found = (CALL if "rosservice call" in commands else CLIENT).search(commands)
     others = [line for line in commands.splitlines() if "rosservice" in line]
     context.require(
-        "it shows how to call the service",
+        "README.md shows how to call the service",
         holds=found is not None,
         expected="rosservice call /getGeometry and three numbers",
         actual=" / ".join(others) or "no rosservice call",
