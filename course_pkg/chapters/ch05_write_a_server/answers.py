@@ -81,6 +81,20 @@ replace("volume=area * request.height", "volume=area * request.height * 1e6")
 replace("""area = request.width * request.length
     return geometryResponse(area=area, volume=area * request.height)""", """l, w, h = request.length, request.width, request.height
     return geometryResponse(area=2 * (l * w + l * h + w * h), volume=l * w * h)""")
+# %% 05.1 wrong: removes the digits after the decimal point of the sides | hint: Your handler uses only whole numbers
+replace("""area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)""", """length, width, height = int(request.length), int(request.width), int(request.height)
+    return geometryResponse(area=length * width, volume=length * width * height)""")
+# %% 05.1 wrong: shuts the service down some time after the fifth call | hint: The service ended some time after
+replace("def handle_geometry(request):", """import threading
+
+calls = []
+
+
+def handle_geometry(request):
+    calls.append(request)
+    if len(calls) == 5:
+        threading.Timer(0.4, geometry_service.shutdown).start()""")
 # %% 05.1 wrong: returns the area as the volume | hint: The field `volume` contains the area
 replace("volume=area * request.height", "volume=area")
 # %% 05.1 wrong: uses the width instead of the height for the volume | hint: Multiply all three sides
@@ -323,7 +337,7 @@ replace('moved = request … else "off")', """wanted = {True: "on", False: "off"
 # %% 05.4 right: uses an object that creates its service
 replace("False", 'False\n        self.service = rospy.Service("/switch", SetBool, self.handle_switch)')
 replace('\nswitch_service = rospy.Service("/switch", SetBool, switch.handle_switch)', "")
-# %% 05.4 wrong: returns success=True in every call | hint: in the wanted position, but success is True
+# %% 05.4 wrong: returns success=True in every call | hint: in the wanted position, but success is True … A new switch is off, so
 replace("success=moved", "success=True")
 # %% 05.4 wrong: changes the position before it compares | hint: The switch moved, but success is
 replace("\n        moved = request.data != self.on", "")
@@ -447,6 +461,56 @@ replace('self.move_service.shutdown("maintenance")', 'rospy.signal_shutdown("mai
 replace("changed = request", "self.moves += 1\n        changed = request")
 # %% 05.5 wrong: does not import a type | hint: An exception has ended the program
 replace("SetBoolResponse, Trigger, TriggerResponse", "SetBoolResponse, TriggerResponse")
+# %% 05.5 wrong: starts another program that offers /move_arm | hint: Another process provides the
+"""%%writefile arm.py
+#!/usr/bin/env python3
+import pathlib
+import subprocess
+import sys
+
+import rospy
+from std_srvs.srv import SetBool, SetBoolResponse
+
+COUNT = pathlib.Path("arm_moves.txt")
+MOVER = '''
+import os, pathlib, rospy
+from std_srvs.srv import Trigger
+parent = os.getppid()
+count = pathlib.Path("arm_moves.txt")
+def move(request):
+    count.write_text(str(int(count.read_text()) + 1))
+    return True, count.read_text()
+rospy.init_node("mover")
+rospy.Service("/move_arm", Trigger, move)
+while os.getppid() == parent and not rospy.is_shutdown():
+    rospy.rostime.wallsleep(0.2)
+'''
+mover = None
+
+
+def handle_maintenance(request):
+    global mover
+    was_closed = mover is None
+    if request.data and mover:
+        mover.terminate()
+        mover.wait()
+        mover = None
+    elif not request.data and not mover:
+        mover = subprocess.Popen([sys.executable, "-c", MOVER])
+        rospy.wait_for_service("/move_arm", timeout=10)
+    return SetBoolResponse(success=request.data != was_closed, message="closed" if request.data else "open")
+
+
+if __name__ == "__main__":
+    rospy.init_node("arm")
+    COUNT.write_text("0")
+    mover = subprocess.Popen([sys.executable, "-c", MOVER])
+    rospy.Service("/maintenance", SetBool, handle_maintenance)
+    rospy.spin()
+    if mover:
+        mover.terminate()
+"""
+
 # %% 05.5 wrong: offers the services in the notebook | hint: Another process provides the
 from pathlib import Path
 

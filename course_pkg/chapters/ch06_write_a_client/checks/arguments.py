@@ -54,6 +54,11 @@ def read_the_arguments(context: CheckContext) -> None:
                 lambda actual: all(isinstance(item, int) for item in actual),
                 "A side can be a number such as 1.5. Convert each side to float, not to int.",
             ),
+            (
+                lambda actual: not {*actual} & {*sides},
+                "The function returned numbers that are not in `argv`. Convert the strings in `argv` "
+                "to float, and return these numbers.",
+            ),
             (ANYTHING, name_first),
         ],
     )

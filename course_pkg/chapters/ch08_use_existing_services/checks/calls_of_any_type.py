@@ -13,6 +13,10 @@ IS_MESSAGE = """
 def is_message(function, *args):
     return hasattr(function(*args), "_slot_types")
 """  # A check receives a message as a dict, so only code in the kernel can distinguish a message from a dict.
+WRONG_TYPE = (
+    "Your function used a wrong type for this service. In each call, get the class of the "
+    "service's type with get_service_class_by_name."
+)
 ERRORS = [
     (
         matches("'str' object has no attribute '_request_class'"),
@@ -40,11 +44,7 @@ ERRORS = [
         "in each call.",
     ),
     (matches("KeyError: 0"), "The second argument of fill_message_args has to be a list. Write [fields]."),
-    (
-        matches("md5sums do not match"),
-        "Your proxy has the wrong type for this service. In each call, get the class of the "
-        "service's type with get_service_class_by_name.",
-    ),
+    (matches("md5sums do not match"), WRONG_TYPE),
 ]
 UNKNOWN_TYPE = (
     "Your function has no type for this service. Get the class from the server with "
@@ -144,7 +144,8 @@ def _calls(context: CheckContext, example: ExampleCall) -> None:
     server = context.serve(name, example.kind, lambda _: example.answer)
     unfilled = NESTED if "camera_info" in example.fields else FLAT
     no_entry = matches(rf"^KeyError: '(/?{name[1:]}|{example.kind})'")
-    hints = [(no_entry, UNKNOWN_TYPE), *ERRORS, (ANYTHING, unfilled)]
+    wrong_type = matches("No field name|md5sums do not match")
+    hints = [(no_entry, UNKNOWN_TYPE), (wrong_type, WRONG_TYPE), *ERRORS, (ANYTHING, unfilled)]
     returned = context.run("call_any", name, example.fields, hints=hints).returned()
     context.expect(
         "the service is called once", expected=1, actual=len(server.requests), hints=CALLED_WRONGLY
