@@ -141,7 +141,7 @@ def _start(
 
 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> str:
-    """Assert that the service and the node of the room `room` have the right names; return the node's name.
+    """Assert that the room's service and node have the right names; return the name of the node.
 
     `before` contains the addresses of the services that existed before the server was started.
     """

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
-from course_pkg.checking.assertions import Condition, Hints
+from course_pkg.checking.assertions import Condition
 from course_pkg.checking.shared.served_by import require_served_by_notebook, require_still_served
 
 A_NEW_SWITCH = """

@@ -116,8 +116,8 @@ def _about_dependency(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
     if "condition" in text and any(each.name in (tag, "depend") for each in elsewhere):
         return (
-            f"The tag for {package} has the attribute `condition`, so catkin ignores this tag in some versions "
-            "of ROS. Remove the condition."
+            f"The tag for {package} has the attribute `condition`, so some versions of ROS ignore this tag. "
+            "Remove the condition."
         )
     if elsewhere:
         return (
