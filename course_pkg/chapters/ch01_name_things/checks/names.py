@@ -228,7 +228,8 @@ def _astray(room: str, found: str, node: str) -> str:
 def _views(context: CheckContext, viewer: Running, words: list[str], arm: str, before: set[str]) -> None:
     """Assert that the started node and its topics have the right names for the arm `arm`.
 
-    `words` contains the words of the command that started the node. `before` contains the names of the nodes that existed before the command was run.
+    `words` contains the words of the command that started the node. `before` contains the names of the nodes
+    that existed before the command was run.
     """
     name, seen = _viewer(context, viewer, before)
     with context.goal(VIEWER):
