@@ -64,5 +64,8 @@ class Counter:
 def _require_seconds(field: str, value: float) -> None:
     if not 0.0 <= value <= LONGEST:  # The condition also refuses NaN.
         raise FieldError(
-            field, value, f"seconds, from 0 to {LONGEST:g}", f"{value:g} s is not a possible time to wait"
+            field,
+            value,
+            f"a number of seconds from 0 to {LONGEST:g}",
+            f"{value:g} s is not a possible time to wait",
         )

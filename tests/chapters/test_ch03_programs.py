@@ -127,7 +127,10 @@ def test_all_waiting_calls_return_the_customer() -> None:
 @pytest.mark.usefixtures("detector")
 def test_impossible_patience_is_refused_with_the_range() -> None:
     """If the waiting time in the request is impossible, the error message contains the allowed range."""
-    words = "cannot process request: patience: a wait of .* s is not possible; expected seconds, from 0 to 60"
+    words = (
+        "cannot process request: patience: a wait of .* s is not possible; "
+        "expected a number of seconds from 0 to 60"
+    )
     for patience in (-1.0, math.nan, math.inf, 61.0):
         with pytest.raises(rospy.ServiceException, match=words):
             detect(patience=patience)

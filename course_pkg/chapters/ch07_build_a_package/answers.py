@@ -519,7 +519,7 @@ replace("if request.number not in STATES", "if not request.number in (1, 2)")
 based_on("uses conditions and a main function")
 replace('response.state = "OFF"', "pass")
 replace('response.state = "ON"', "pass")
-# %% 07.9 wrong: uses small letters | hint: The letters of the state
+# %% 07.9 wrong: uses small letters | hint: The state contains small letters
 replace('{0: "OFF", 1: "ON"}', '{0: "off", 1: "on"}')
 # %% 07.9 wrong: exchanges the states | hint: The two states are exchanged
 replace('{0: "OFF", 1: "ON"}', '{0: "ON", 1: "OFF"}')

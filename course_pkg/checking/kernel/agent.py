@@ -197,7 +197,9 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
     try:
         return {"value": TimeLimit(timeout).call(lambda: plain(function()))}
     except TimesUp:
-        return {"error": {"type": "TimesUp", "bases": [], "text": f"the call did not end within {timeout:g} s"}}
+        return {
+            "error": {"type": "TimesUp", "bases": [], "text": f"the call did not end within {timeout:g} s"}
+        }
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # noqa: BLE001 -- an exercise may call sys.exit(), which is a result, too

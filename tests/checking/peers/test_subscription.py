@@ -103,8 +103,8 @@ def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
     student.run("p = rospy.Publisher('/joint_state', UInt32, queue_size=1)")
     report = check.run("result = broken(subscribe('/joint_states'), within=0.1)")
     assert report[2] == (
-        "The graph contains a topic with a similar name, /joint_state. Compare this name letter by letter with "
-        "the name in the exercise."
+        "The graph contains a topic with a similar name, /joint_state. Compare this name letter by letter "
+        "with the name in the exercise."
     )
 
 

@@ -20,7 +20,7 @@ TIMEOUT = 5.0  # A running node has to list its topics within this time in s.
 START = 20.0  # A program may take this many s to start; usually, it takes 0.5 s.
 WHERE = "the service is called measure, and it is in the namespace of the room"
 OWN_SERVICE = "Start a server that offers the service `measure` in the namespace of the room."
-OWN_NODE = "Name the server's node `measurer`, and start this node in the namespace of the room."
+OWN_NODE = "Give the server's node the name `measurer`, and start this node in the namespace of the room."
 VIEWER = (
     "Give the viewer's node the name ARM_viewer in the namespace /screen, where ARM is the name of the arm."
 )

@@ -54,7 +54,9 @@ class Detector:
         # This test refuses NaN, because each comparison with NaN is False.
         if not 0.0 <= request.patience <= LONGEST:
             message = f"a wait of {request.patience:g} s is not possible"
-            wrong = FieldError("patience", request.patience, f"seconds, from 0 to {LONGEST:g}", message)
+            wrong = FieldError(
+                "patience", request.patience, f"a number of seconds from 0 to {LONGEST:g}", message
+            )
             raise rospy.ServiceException(str(wrong))
         with self._place():
             customer = self._wait(request.after, request.patience)

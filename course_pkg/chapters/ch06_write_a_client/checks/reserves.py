@@ -99,8 +99,8 @@ def ask_the_next_one(context: CheckContext) -> None:
         expected=0.0,
         actual=_first_of(context, names, "flat", "second").returned(),
         hints=(
-            "The first service responded with the volume 0.0, and Python treats 0.0 as false. "
-            "Test for an empty list or for None instead."
+            "The first service responded with the volume 0.0, and Python treats 0.0 as false. Do not "
+            "test the volume itself: test whether it is None, or whether your list is empty."
         ),
     )
     context.fulfilled(FIRST)

@@ -27,7 +27,7 @@ INSTALLED = "Install server.py and client.py in the folder that rosrun searches.
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
-    goals={INSTALLED: 3, "Install all files that the server needs to run.": 1},
+    goals={INSTALLED: 3, "Install all files that the installed server needs.": 1},
 )
 def the_install_rules(context: CheckContext) -> None:
     """Install a copy of the package, move its other folders away, and start the installed server."""

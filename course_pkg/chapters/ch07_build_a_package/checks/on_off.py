@@ -82,7 +82,7 @@ def the_on_off_server(context: CheckContext) -> None:
                     ),
                     (
                         state.lower(),
-                        "The letters of the state are wrong. Write ON and OFF in capital letters.",
+                        "The state contains small letters. Write ON and OFF in capital letters.",
                     ),
                     (
                         lambda text: text in ("ON", "OFF"),
