@@ -114,10 +114,18 @@ geometry_service = rospy.Service("/getGeometry", geometry, Geometer().handle)
 
 # %% 05.1 wrong: creates a client instead of a server | hint: The service does not exist. … rospy.Service
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'rospy.ServiceProxy("/getGeometry", geometry)')
-# %% 05.1 wrong: starts the course's server | hint: Another program provides the service with the name
+# %% 05.1 wrong: starts another program that offers the service | hint: Another program provides the service with the name
 import subprocess
+import sys
 
-subprocess.Popen(["rosrun", "course_pkg", "server"])
+SERVER = """
+import rospy
+from course_pkg.srv import geometry
+rospy.init_node("measurer")
+rospy.Service("/getGeometry", geometry, lambda request: (request.length * request.width, 1.0))
+rospy.spin()
+"""
+subprocess.Popen([sys.executable, "-c", SERVER])
 rospy.wait_for_service("/getGeometry", timeout=15)
 handle_geometry = geometry_service = print
 
@@ -273,15 +281,23 @@ replace("{value}, and a side cannot be negative", "negative")
 replace("{value}, and", "{int(value)}, and")
 # %% 05.3 wrong: writes the value with one decimal in the message | hint: The message contains a rounded value.
 replace("{value}, and", "{value:.1f}, and")
-# %% 05.3 wrong: starts the course's server, and leaves the handler empty | hint: Another program provides the service with the name
+# %% 05.3 wrong: starts another program that offers the service, and leaves the handler empty | hint: Another program provides the service with the name
 import subprocess
+import sys
 
 
 def handle_checked_geometry(request):
     """Return area and volume, or refuse with rospy.ServiceException."""
 
 
-checked_service = subprocess.Popen(["rosrun", "course_pkg", "server", "getGeometry:=/getGeometryChecked"])
+SERVER = """
+import rospy
+from course_pkg.srv import geometry
+rospy.init_node("measurer")
+rospy.Service("/getGeometryChecked", geometry, lambda request: (request.length * request.width, 1.0))
+rospy.spin()
+"""
+checked_service = subprocess.Popen([sys.executable, "-c", SERVER])
 rospy.wait_for_service("/getGeometryChecked", timeout=15)
 
 # %% 05.3 wrong: writes the whole request into the message | hint: The message contains the names of more than one

@@ -445,7 +445,7 @@ def read_sides(argv):
         sys.exit("usage: client length width height")
     return [float(text) for text in own]
 
-# %% 06.5 wrong: reads the arguments of the current process | hint: Read the numbers from `argv`
+# %% 06.5 wrong: reads the arguments of the current process | hint: Read only `argv`, and
 replace("(argv)[1:]", "()[1:]")
 # %% 06.5 wrong: converts the numbers to int | hint: A side can be a
 replace("float(text)", "int(float(text))")

@@ -44,7 +44,7 @@ def read_the_arguments(context: CheckContext) -> None:
             (
                 None,
                 "The function returned None, although `argv` contains three numbers after the name "
-                "of the program. Note that 1.5 is a number, too.",
+                "of the program. Read only `argv`, and note that 1.5 is a number, too.",
             ),
             (
                 lambda actual: all(isinstance(item, str) for item in actual),
