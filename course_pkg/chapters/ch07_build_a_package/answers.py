@@ -205,7 +205,7 @@ replace('"/getGeometry"', '"/get_geometry"')
 replace('\n    rospy.Service("/getGeometry", geometry, handle_geometry)', "")
 # %% 07.4 wrong: does not call init_node | hint: A service needs a node
 replace('\n    rospy.init_node("SERVER_NODE")', "")
-# %% 07.4 wrong: uses another node name | hint: Call rospy.init_node … SERVER_NODE
+# %% 07.4 wrong: uses another node name | hint: without anonymous=True … SERVER_NODE
 replace("SERVER_NODE", "server")
 # %% 07.4 wrong: uses an anonymous node | hint: without anonymous=True
 replace('"SERVER_NODE"', '"SERVER_NODE", anonymous=True')
@@ -577,9 +577,11 @@ def main():
 replace('rospy.wait_for_service("/onOff", timeout … ).state}")', "main()")
 # %% 07.10 wrong: calls the service only once | hint: The client called the service only once.
 replace("    for _ in range(int(sys.argv[1])):", "    for _ in range(1):")
+# %% 07.10 wrong: always makes ten calls | hint: The number of calls is
+replace("range(int(sys.argv[1]))", "range(10)")
 # %% 07.10 wrong: prints states without a call | hint: The client ended, but it did not call /onOff
 replace("name_state(number).state", '"ON" if number else "OFF"')
-# %% 07.10 wrong: makes one call too many | hint: The number of calls is
+# %% 07.10 wrong: makes one call too many | hint: The client made one call too
 replace("range(int(sys.argv[1]))", "range(int(sys.argv[1]) + 1)")
 # %% 07.10 wrong: always sends the same number | hint: The numbers are not random.
 replace("random.randint(0, 1)", "1")

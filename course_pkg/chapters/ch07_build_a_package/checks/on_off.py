@@ -153,7 +153,7 @@ def the_on_off_client(context: CheckContext) -> None:
         holds=len(sent) == calls,
         expected=f"{calls} calls",
         actual=f"{len(sent)} calls, and {_ending(done)}",
-        hints=_why_not_sent(len(sent), done),
+        hints=_why_not_sent(len(sent), calls, done),
     )
     context.require(
         "each number is a random number, 0 or 1",
@@ -184,7 +184,7 @@ def the_on_off_client(context: CheckContext) -> None:
     )
 
 
-def _why_not_sent(count: int, done: Finished) -> str:
+def _why_not_sent(count: int, wanted: int, done: Finished) -> str:
     printed = done.out + done.err
     if "Traceback" in printed:
         fault = explain(printed)
@@ -200,6 +200,11 @@ def _why_not_sent(count: int, done: Finished) -> str:
         return (
             "The client called the service only once. Read the number of calls from the first "
             "argument: int(sys.argv[1])."
+        )
+    if abs(count - wanted) == 1:
+        return (
+            "The client made one call too few or one call too many. Count how often the loop runs if the "
+            "first argument is 1."
         )
     return (
         "The number of calls is wrong. The first argument contains the number of calls that the "
