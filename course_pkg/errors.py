@@ -1,31 +1,48 @@
 """Every error that the course raises.
 
-CourseError ├── SetupError: something that the course needs is missing and could not be created ├──
-InterfaceError: a type is unknown or wrong, or a value does not fit its field │ ├── UnknownType: there is no
-such type │ ├── BrokenDefinition: a .srv or .msg text that ROS does not accept; with line and column │ └──
-FieldError: a value that its field cannot hold; also a ValueError ├── GraphError: a problem with the ROS graph
-│ ├── MalformedMasterUri: ROS_MASTER_URI is not http://HOST:PORT │ ├── MasterUnreachable: no program accepts
-connections at that address │ ├── MasterSilent: a program accepts the connection, but does not answer │ ├──
-NotAMaster: the program that answers is not a ROS master │ ├── PortBusy: another program uses the port │ ├──
-NodeNameTaken: another running node has this name │ ├── NotJoined: this kernel is not a node, or is the wrong
-kind of node │ ├── NotAServiceType, NotAMessageType: the argument is not a service or message type │ ├──
-CallError: CallTimeout, CallCancelled: a call ended without a response │ ├── NothingHeard: too few messages
-within the time limit │ ├── PublisherStopped: this publisher was stopped │ ├── UnknownExecutable: no such
-package, or no such program or launch file in it │ └── NodeFailed: the process of a node ended; contains the
-end of its output ├── ChannelError: ChannelBroken, ChannelClosed, ChannelTimeout: a channel between two
-processes failed ├── CheckError: a check cannot run │ ├── UnknownCheck: no check has this id │ └──
-ToolMissing: this machine lacks a tool that the exercise needs ├── CameraSilent: the camera of the shop sends
-no messages ├── PrinterFailed: the printer of the cash register has printed nothing ├── UnknownFault: BreakIt
-has no fault of this name ├── AuthoringError: a solution notebook breaks a rule of the course ├──
-GradingError: submissions cannot be graded │ ├── SandboxUnavailable: this machine cannot isolate a submission
-│ └── WorkerFailed: the process that runs submissions ended, or did not start ├── ClassViewError: the class
-view cannot start, or its data cannot be used ├── HandoutError: an edition for students cannot be made, or
-work cannot be collected ├── HubError: a JupyterHub for a class cannot be set up ├── PanelError: a panel
-cannot do what a cell asks for │ ├── NoServiceSelected: no service is selected, or the selected service has no
-form │ ├── CallInProgress: the panel is already making a call │ ├── DrawingFailed: graphviz failed │ ├──
-InvalidPredictions: the file of predictions cannot be read │ ├── NotAChoice: the arguments of choose() are
-invalid │ └── NotATopic: the string cannot be the name of a topic ├── ExportFailed: a file with the student's
-progress cannot be written └── SiteError: the site cannot be built, or a check of the built site failed
+CourseError
+├── SetupError: something that the course needs is missing and could not be created
+├── InterfaceError: a type is unknown or wrong, or a value does not fit its field
+│   ├── UnknownType: there is no such type
+│   ├── BrokenDefinition: a .srv or .msg text that ROS does not accept; with line and column
+│   └── FieldError: a value that its field cannot hold; also a ValueError
+├── GraphError: a problem with the ROS graph
+│   ├── MalformedMasterUri: ROS_MASTER_URI is not http://HOST:PORT
+│   ├── MasterUnreachable: no program accepts connections at that address
+│   ├── MasterSilent: a program accepts the connection, but does not answer
+│   ├── NotAMaster: the program that answers is not a ROS master
+│   ├── PortBusy: another program uses the port
+│   ├── NodeNameTaken: another running node has this name
+│   ├── NotJoined: this kernel is not a node, or is the wrong kind of node
+│   ├── NotAServiceType, NotAMessageType: the argument is not a service or message type
+│   ├── CallError: CallTimeout, CallCancelled: a call ended without a response
+│   ├── NothingHeard: too few messages within the time limit
+│   ├── PublisherStopped: this publisher was stopped
+│   ├── UnknownExecutable: no such package, or no such program or launch file in it
+│   └── NodeFailed: the process of a node ended; contains the end of its output
+├── ChannelError: ChannelBroken, ChannelClosed, ChannelTimeout: a channel between two processes failed
+├── CheckError: a check cannot run
+│   ├── UnknownCheck: no check has this id
+│   └── ToolMissing: this machine lacks a tool that the exercise needs
+├── CameraSilent: the camera of the shop sends no messages
+├── PrinterFailed: the printer of the cash register has printed nothing
+├── UnknownFault: BreakIt has no fault of this name
+├── AuthoringError: a solution notebook breaks a rule of the course
+├── GradingError: submissions cannot be graded
+│   ├── SandboxUnavailable: this machine cannot isolate a submission
+│   └── WorkerFailed: the process that runs submissions ended, or did not start
+├── ClassViewError: the class view cannot start, or its data cannot be used
+├── HandoutError: an edition for students cannot be made, or work cannot be collected
+├── HubError: a JupyterHub for a class cannot be set up
+├── PanelError: a panel cannot do what a cell asks for
+│   ├── NoServiceSelected: no service is selected, or the selected service has no form
+│   ├── CallInProgress: the panel is already making a call
+│   ├── DrawingFailed: graphviz failed
+│   ├── InvalidPredictions: the file of predictions cannot be read
+│   ├── NotAChoice: the arguments of choose() are invalid
+│   └── NotATopic: the string cannot be the name of a topic
+├── ExportFailed: a file with the student's progress cannot be written
+└── SiteError: the site cannot be built, or a check of the built site failed
 
 Each error message explains what happened, where, and what to do next.
 """

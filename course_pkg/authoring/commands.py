@@ -27,7 +27,9 @@ def _sync(options: SimpleNamespace) -> int:
 
 
 def _sync_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("--check", action="store_true", help="change nothing; list the files to update")
+    parser.add_argument(
+        "--check", action="store_true", help=("change nothing; list the files that are out of date")
+    )
     parser.add_argument(
         "--execute",
         nargs="*",

@@ -182,4 +182,4 @@ def _what_went_wrong(notebook: Notebook, error: Exception) -> str:
     ]
     where = f"cell {failed[-1]}" if failed else "a cell"
     words = f"{error.ename}: {error.evalue}" if isinstance(error, CellExecutionError) else str(error)
-    return f"{where} stopped the run with {words}"
+    return f"the run stopped at {where}: {words}"

@@ -16,7 +16,7 @@ def problems(name: str, notebook: Notebook) -> list[str]:
     parts = {part.check: part for part in parts_of(chapter)} if chapter in chapters() else {}
     found = [*_pairs(notebook), *_exercises(notebook, parts), *_errors(notebook)]
     missing = sorted(parts.keys() - {exercise_of(cell) for cell in code_cells(notebook)})
-    found += [("", f"part {part} is declared in the checks and has no exercise cell") for part in missing]
+    found += [("", f"part {part} is declared in the checks, but it has no exercise cell") for part in missing]
     return [f"{name}, cell {cell}: {text}" if cell else f"{name}: {text}" for cell, text in found]
 
 
@@ -29,7 +29,10 @@ def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
         if (exercise or check) and cell["cell_type"] != "code":
             yield cell["id"], "only a code cell can be an exercise or a check"
         if exercise in exercises or check in checks:
-            yield cell["id"], f"an earlier cell of this kind also has the id {exercise or check}"
+            yield (
+                cell["id"],
+                (f"an earlier cell already has the id {exercise or check}; each id must be unique"),
+            )
         if check and check not in exercises:
             yield cell["id"], f"check {check} has no exercise cell above it"
         if check and f'check("{check}")' not in cell["source"]:
@@ -47,7 +50,8 @@ def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[
             continue
         points = points_of(cell)
         if points is None:
-            yield cell["id"], f'exercise {exercise} has no points: {{"exercise": "{exercise}", "points": 2}}'
+            example = f'{{"exercise": "{exercise}", "points": 2}}'
+            yield cell["id"], f"exercise {exercise} has no points; write {example} into the cell's metadata"
         if exercise not in parts:
             yield cell["id"], f"no check is declared for {exercise}"
         elif points is not None and points != parts[exercise].points:
@@ -60,7 +64,10 @@ def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[
             if given.strip() == cell["source"].strip():
                 yield cell["id"], "this exercise contains no answer that can be removed"
             elif given.startswith("%%") and _first(given) != _first(cell["source"]):
-                yield cell["id"], f"the check gives students a cell that begins with {_first(given)}"
+                yield (
+                    cell["id"],
+                    (f"the check gives students a cell that begins with a different line: {_first(given)}"),
+                )
         except AuthoringError as error:
             yield cell["id"], str(error)
 
@@ -75,4 +82,10 @@ def _errors(notebook: Notebook) -> Iterator[tuple[str, str]]:
         for output in cell["outputs"]:
             if output["output_type"] == "error" and not may_raise(cell):
                 words = f"{output['ename']}: {output['evalue']}"
-                yield cell["id"], f"ends with {words}; add the tag raises-exception if this is intended"
+                yield (
+                    cell["id"],
+                    (
+                        f"the cell raises {words}; if the cell should raise this error, add the tag "
+                        "raises-exception"
+                    ),
+                )

@@ -143,10 +143,9 @@ def _instructions(url: str, teacher_token: str, tokens: Tokens, ip: str) -> str:
         else "Note: HTTP is not encrypted. Use a network that only your class can reach.\n"
     )
     return (
-        f"The page for the teacher: {url}/?token={teacher_token}\n"
-        f"The tokens of {len(tokens.names)} students: {tokens.path}\n"
-        f"Each student starts: COURSE_CLASS_URL={url} COURSE_CLASS_TOKEN=TOKEN ./course lab\n"
-        f"{far}Ctrl-C ends the service.\n"
+        f"The page for the teacher: {url}/?token={teacher_token}\nThe tokens of {len(tokens.names)} "
+        f"students: {tokens.path}\nEach student types: COURSE_CLASS_URL={url} COURSE_CLASS_TOKEN=TOKEN "
+        f"./course lab\n{far}Ctrl-C ends the service.\n"
     )
 
 

@@ -29,29 +29,31 @@ def _arguments(parser: ArgumentParser) -> None:
         "--students", type=_positive, metavar="N", help="create N tokens: student01, student02, …"
     )
     parser.add_argument(
-        "--teacher", metavar="NAME", help="the name of the teacher that students see (your user name)"
+        "--teacher", metavar="NAME", help="the teacher's name that students see (default: your user name)"
     )
     parser.add_argument(
         "--port",
         type=int,
         default=8900,
-        help="the port on which the service listens (8900; 0: any free port)",
+        help="the port on which the service listens (default: 8900); with 0, the service uses any free port",
     )
     parser.add_argument(
-        "--ip", default="127.0.0.1", help="the address on which the service listens (127.0.0.1)"
+        "--ip", default="127.0.0.1", help="the address on which the service listens (default: 127.0.0.1)"
     )
     parser.add_argument(
         "--days",
         type=_days,
         default=30.0,
         help=(
-            "the number of days after the last result of a student; then all results of this student "
-            "are deleted (30)"
+            "delete all results of a student this number of days after the student's last result (default: "
+            "30)"
         ),
     )
     parser.add_argument("--data", type=Path, metavar="DIR", help="the folder for results and tokens")
     parser.add_argument(
-        "--delete", metavar="USER", help="delete the results and the token of a student, and end"
+        "--delete",
+        metavar="USER",
+        help=("delete the results and the token of a student; do not start the service"),
     )
 
 

@@ -163,7 +163,7 @@ CALLING: tuple[Fault, ...] = (
         diagnosis=(
             "The server's node runs, but it provides the service only after the client has stopped waiting."
         ),
-        remedy="Wait longer than the server needs to start, or try again later.",
+        remedy="Use a longer timeout, or call the service later.",
         reason=(
             "wait_for_service() ended after one second. At that time, `rosnode list` shows the node, but "
             "`rosservice list` does not show the service yet."
@@ -188,10 +188,10 @@ CALLING: tuple[Fault, ...] = (
         name="zero_timeout",
         play=nothing,
         visitor=asking('rospy.wait_for_service("/lab/door", timeout=0)', "import std_srvs.srv"),
-        diagnosis="wait_for_service() gets a timeout of 0, which it does not accept.",
+        diagnosis="The timeout of wait_for_service() is 0, and this value is not allowed.",
         remedy=(
-            "Use a timeout of some seconds. Or call the service without waiting, and catch the "
-            "exception of the call."
+            "Use a timeout of a few seconds. Or call the service without waiting, and catch the exception "
+            "of the call."
         ),
         reason="`timeout must be non-zero` is a ValueError in the client. No request was sent.",
     ),
@@ -211,8 +211,8 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The call mixes positional values and keywords.",
         remedy="Pass all values by position, or pass all values by keyword.",
         reason=(
-            "The message mentions publish(), because services and topics create their messages with the"
-            " same code."
+            "The error message mentions publish(), because rospy creates requests and topic messages with "
+            "the same code."
         ),
     ),
     _python(
@@ -221,8 +221,8 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The call names a field that the request does not have.",
         remedy="Compare the name with the fields of the request that `rossrv show` prints.",
         reason=(
-            "`dat is not an attribute of SetBoolRequest` is an AttributeError in the client, before "
-            "anything was sent."
+            "`dat is not an attribute of SetBoolRequest` is an AttributeError in the client. The error "
+            "occurs before the client sends anything."
         ),
     ),
     _well(
@@ -231,7 +231,9 @@ CALLING: tuple[Fault, ...] = (
         story="A client calls the door's service, and gets an unexpected response.",
         play=running(keeper()),
         visitor=calling("print(move_door())"),
-        diagnosis="The call omits a field, which therefore has the value False or 0. No error reports this.",
+        diagnosis=(
+            "The call omits a field, which therefore has the value False or 0. No error message reports this."
+        ),
         remedy="In the call, pass a value for each field by its name.",
         reason=(
             "An omitted field has the value False, 0 or an empty string. The server cannot know "
@@ -261,8 +263,9 @@ CALLING: tuple[Fault, ...] = (
             "client, and use the same type in client and server."
         ),
         reason=(
-            "`md5sums do not match`: the server compares a checksum of the definition before it reads a"
-            " request. Here the client uses Trigger, and the server uses SetBool."
+            "`md5sums do not match`: before the server reads a request, it compares the client's checksum "
+            "of the definition with its own checksum. Here the client uses Trigger, and the server uses "
+            "SetBool."
         ),
     ),
     _broken(
@@ -283,8 +286,7 @@ CALLING: tuple[Fault, ...] = (
         play=running("import os\n" + keeper("os._exit(1)  # the motor causes a power failure")),
         diagnosis="The server received the request, and ended before it sent the response.",
         remedy=(
-            "Start the server again. Repeat the call only if it does no harm when the server does the "
-            "work twice."
+            "Start the server again. Repeat the call only if the server can do the work twice without harm."
         ),
         reason=(
             "`unable to receive data from sender`: the connection was closed while the client waited for the "
@@ -314,9 +316,9 @@ CALLING: tuple[Fault, ...] = (
             "header on a separate thread."
         ),
         reason=(
-            "rospy has one thread that accepts connections, and this thread also reads the header "
-            "of each connection. `rosnode ping` uses another thread and gets an answer, but a probe "
-            "of the service gets none. prepare_node() of the course avoids this."
+            "rospy has one thread that accepts connections, and this thread also reads the header of each "
+            "connection. `rosnode ping` uses another thread and gets an answer, but a probe of the service "
+            "gets no answer. The course's function prepare_node() prevents this problem."
         ),
         hangs=True,
     ),
@@ -330,7 +332,9 @@ CALLING: tuple[Fault, ...] = (
         ),
         play=running(RESTARTED),
         visitor=KEEPS_CALLING,
-        diagnosis="The client keeps a connection to a server that has ended, and never opens a new one.",
+        diagnosis=(
+            "The client keeps a connection to a server that has ended, and never opens a new connection."
+        ),
         remedy="Close the persistent proxy and create a new one, or call without persistent=True.",
         reason=(
             "A persistent proxy looks the service up only once, so it never calls the new server. "

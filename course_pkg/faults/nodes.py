@@ -184,7 +184,9 @@ NODES: tuple[Fault, ...] = (
             "service."
         ),
         play=_spin_and_interrupt,
-        diagnosis="rospy.spin() was interrupted in the server's notebook, which has shut its node down.",
+        diagnosis=(
+            "rospy.spin() was interrupted in the server's notebook. This shut down the node of the notebook."
+        ),
         remedy="Restart the kernel, or call join() again. Never call spin() in a notebook.",
         reason=(
             "Interrupting spin() shuts the node down without a message. After that, init_node() and "
@@ -201,15 +203,15 @@ NODES: tuple[Fault, ...] = (
         diagnosis="Another node has started with the node name of the server, so the server was shut down.",
         remedy="Give each node its own name, and start the server again.",
         reason=(
-            "The server's output contains `new node registered with same name`: the master shuts down "
-            "the older node of this name."
+            "The server's output contains `new node registered with same name`: the master shuts down the "
+            "older node with this name."
         ),
         unlike=("no_service",),
     ),
     _fault(
         name="killed",
         look="gone connection",
-        story="`rosnode list` shows the door's node. Does it work?",
+        story="`rosnode list` shows the door's node. Does this node work?",
         play=kill_server,
         visitor="$ rosnode ping -c 1 /lab/keeper",
         diagnosis="The node was killed, and its name is still registered with the master.",
@@ -227,8 +229,8 @@ NODES: tuple[Fault, ...] = (
         story="A program rings the bell with one message. The door's node should have received the message.",
         play=running(LISTENER),
         visitor=RINGS_ONCE,
-        diagnosis="The message was published before a subscriber was connected, and is lost.",
-        remedy="Wait for the connection before you publish, or latch the topic.",
+        diagnosis="The message was published before a subscriber was connected, so it was lost.",
+        remedy="Wait for the connection before you publish, or use a latched topic.",
         reason=(
             "A publisher registers with the master, the master informs the subscribers, and then the "
             "subscribers connect. This takes some milliseconds. Messages that are published during this time "
@@ -243,10 +245,10 @@ NODES: tuple[Fault, ...] = (
         play=running(LISTENER),
         visitor=RINGS_OTHERWISE,
         diagnosis="Publisher and subscriber use different types for one topic.",
-        remedy="Compare the types with `rostopic info`, and use the same type in both nodes.",
+        remedy="Use `rostopic info` to find the type of the topic, and use this type in both nodes.",
         reason=(
-            "The publisher refuses the connection, and the subscriber gets no error. Only the "
-            "publisher's log may contain a line about this refusal."
+            "The publisher refuses the connection, and the subscriber gets no error. The publisher's log "
+            "may contain a line about this refusal."
         ),
         unlike=("first_message",),
     ),

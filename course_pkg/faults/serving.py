@@ -104,8 +104,8 @@ SERVING: tuple[Fault, ...] = (
         ),
         reason=(
             "After `error processing request`, the client receives the message of the exception. The "
-            "traceback is only in the server's output. This is so for all exceptions except "
-            "ServiceException."
+            "traceback is only in the server's output. rospy handles all exceptions except ServiceException "
+            "in this way."
         ),
     ),
     _replied(
@@ -145,8 +145,8 @@ SERVING: tuple[Fault, ...] = (
         ),
         play=running(LOGGERS),
         diagnosis=(
-            "The response has only one field, which is a list. The handler returns this list, but "
-            "not inside another list."
+            "The response has only one field, which is a list. The handler returns this list directly, and "
+            "not a list that contains it."
         ),
         remedy="Put the list into a second list, [[…]], or return a dict with the name of the field.",
         reason=(
@@ -192,7 +192,7 @@ SERVING: tuple[Fault, ...] = (
             'print("waiting for the hinge")\nhinge.wait()\nreturn SetBoolResponse(True, "open")',
             "import threading\n\nhinge = threading.Event()\n",
         ),
-        diagnosis="The handler waits for something that does not happen.",
+        diagnosis="The handler waits for an event that does not happen.",
         remedy="Give each wait in a handler a time limit, and give the call a deadline.",
         reason=(
             "The node answers `rosnode ping` and a probe of its service, because both use other "
@@ -221,8 +221,8 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="The service is created with its request class instead of its type.",
         remedy="Use SetBool, the type that contains request and response.",
         reason=(
-            "The server's output ends with `has no attribute '_request_class'`: only the type itself has "
-            "this attribute. So rospy never provided the service."
+            "The server's output ends with `has no attribute '_request_class'`: only the service type has "
+            "this attribute, so rospy never provided the service."
         ),
     ),
     _served(
@@ -245,8 +245,8 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="A second node now provides a service with the same name, and receives all calls.",
         remedy="End the second node, or rename its service. Then start the door's node again.",
         reason=(
-            "Only one node can provide a service name: the node that registered last. No node gets an error. "
-            "`rosservice info` shows a node that is not the door's node."
+            "Only one node can provide a service with a certain name: the node that registered last. No "
+            "node gets an error. `rosservice info` shows a node that is not the door's node."
         ),
     ),
     _silent(

@@ -81,8 +81,8 @@ def grade(options: Options) -> int:
     """Grade the selected submissions, and write the reports; return the exit status (see run/summary.py)."""
     if options.jobs < 0:
         raise GradingError(
-            f"--jobs {options.jobs} is not a valid number of notebooks. Leave out this option, or "
-            "give 1 or more."
+            f"--jobs {options.jobs} is not a valid number of notebooks. Leave out this option, or give a "
+            "number of at least 1."
         )
     require_references(options.chapters)
     policy = late_policy(options.late, options.late_per_day, options.late_max_days, options.deadlines)
@@ -111,7 +111,7 @@ def grade(options: Options) -> int:
         found = selected.of(everyone)
         graded = list(_graded(options, found, extras, store, Regrade(selected, earlier, fresh=options.fresh)))
     except KeyboardInterrupt:
-        sys.stderr.write("\nStopped. Type the same command again to continue.\n")
+        sys.stderr.write("\nThe run was stopped. Type the same command again to continue.\n")
         sys.stderr.flush()
         # os._exit() does not wait for the threads that grade notebooks. It also ends the processes of these
         # threads.
@@ -148,7 +148,7 @@ def _print_end(
         )
     lines += [*about_empty(graded), *about_rest(rest, out)]
     count = "1 submission" if len(graded) == 1 else f"{len(graded)} submissions"
-    lines += [f"{count} in {took:.0f} s. Open {out / 'class.html'} first.", last_line(graded)]
+    lines += [f"The run graded {count} in {took:.0f} s. Open {out / 'class.html'} first.", last_line(graded)]
     sys.stdout.write("\n".join([*lines, ""]))
 
 
@@ -251,7 +251,7 @@ def _graded(
             todo.setdefault((key, regrade.parts(submission)), []).append(submission)
     if kept := len(found) - sum(map(len, todo.values())):
         progress.advance(kept, kept=True)
-        progress.note(f"{kept} of {len(found)} notebooks are graded from an earlier run.")
+        progress.note(f"The grades of {kept} of {len(found)} notebooks come from an earlier run.")
     jobs = options.jobs or (0 if options.scheduler else A_CORE * (os.cpu_count() or 1))
     private = str(options.private.resolve()) if options.private else ""
     tasks = [

@@ -17,13 +17,13 @@ STATUSES = """exit status:
   0    every submission was graded
   1    nothing was graded, or the run could not continue; the message says why
   2    an option is wrong
-  3    some submissions need a look: they could not be graded, a part of them was not examined
-       or its check could not finish, the time of handing in is not known, or they have
-       no points
-  130  you stopped the run; the same command continues it
+  3    some submissions need a look: a submission could not be graded, a part of it was not
+       examined, a check could not finish, the submission time is not known, or the submission
+       has no points
+  130  you stopped the run; type the same command again to continue
 
-Results that a run does not select stay in the reports. Each run prints the points that have
-changed since the last run, and writes them into changes.csv."""
+The reports also keep the results of submissions that a run does not select. Each run prints the
+points that have changed since the last run, and writes these points into changes.csv."""
 NEEDS = frozenset({"course", "grade", "libraries", "solutions"})
 
 
@@ -51,7 +51,10 @@ def _grade_arguments(parser: ArgumentParser) -> None:
         "source",
         metavar="submissions",
         type=Path,
-        help="a folder with STUDENT/NN_topic.ipynb, a zip of it, or a download from a learning platform",
+        help=(
+            "a folder that contains STUDENT/NN_topic.ipynb, a zip file of this folder, or a download from a "
+            "learning platform"
+        ),
     )
     parser.add_argument(
         "--chapters", type=_chapters, default=(), metavar="05,06", help="grade only these chapters"
@@ -62,7 +65,7 @@ def _grade_arguments(parser: ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME",
-        help="grade only this student again, even if nothing has changed; can be repeated",
+        help="grade only this student again, even if nothing has changed; you can repeat this option",
     )
     parser.add_argument(
         "--part",
@@ -71,7 +74,7 @@ def _grade_arguments(parser: ArgumentParser) -> None:
         action="extend",
         default=[],
         metavar="05.2,05.3",
-        help="grade only these parts again; the notebooks' other results stay",
+        help="grade only these parts again; the results of all other parts do not change",
     )
     parser.add_argument(
         "--out", type=Path, default=Path("grades"), help="the folder for the reports (default: grades)"
@@ -81,25 +84,34 @@ def _grade_arguments(parser: ArgumentParser) -> None:
         "--jobs",
         type=int,
         default=0,
-        help="how many notebooks are graded at the same time (default: two for each core)",
+        help=(
+            "the number of notebooks that are graded at the same time (default: two for each processor core)"
+        ),
     )
     parser.add_argument(
-        "--scheduler", default="", metavar="tcp://…", help="a dask scheduler, to use several machines"
+        "--scheduler",
+        default="",
+        metavar="tcp://…",
+        help=("the address of a dask scheduler, to grade on several machines"),
     )
     parser.add_argument(
         "--validate",
         choices=("none", "missing", "all"),
         default="missing",
-        help="students whose notebooks nbval runs for feedback: those with missing points "
-        "(default), all, none",
+        help=(
+            "run nbval for feedback on the notebooks of the students who lost points (missing, the "
+            "default), of all students (all), or of no student (none)"
+        ),
     )
     parser.add_argument(
         "--flags",
         type=_names,
         default=(),
         metavar="KINDS",
-        help="the kinds of flags to look for, such as copies,files, or none (default: all kinds); "
-        "a flag asks you to look at an answer, and changes no points",
+        help=(
+            "the kinds of flags to look for, such as copies,files; none looks for no flags (default: all "
+            "kinds). A flag asks you to look at an answer, and changes no points"
+        ),
     )
     again = parser.add_mutually_exclusive_group()
     again.add_argument(
@@ -138,13 +150,15 @@ def _add_common(parser: ArgumentParser) -> None:
         "--private",
         type=Path,
         metavar="DIR",
-        help="a folder with private checks and other points, which students never see",
+        help="a folder with your own private checks and points; students never see this folder",
     )
     parser.add_argument(
         "--points",
         type=Path,
         metavar="FILE",
-        help="a JSON file with the points of parts and of their goals; `course points FILE` writes one",
+        help=(
+            "a JSON file with the points of parts and of their goals; `course points FILE` writes such a file"
+        ),
     )
     parser.add_argument(
         UNSAFE, dest="sandboxed", action="store_false", help="run students' code without a sandbox"
@@ -167,14 +181,16 @@ def _review_arguments(parser: ArgumentParser) -> None:
         action="extend",
         default=[],
         metavar="03.3,03.4",
-        help="only the answers to these parts",
+        help="show only the answers to these parts",
     )
-    parser.add_argument("--flagged", action="store_true", help="only the answers with flags")
+    parser.add_argument("--flagged", action="store_true", help="show only the answers with flags")
     parser.add_argument(
         "--unfinished",
         action="store_true",
-        help="only the answers that need a look: their check gave no result, or they have changed since "
-        "their review",
+        help=(
+            "show only the unfinished answers: answers whose check gave no result, and answers that have "
+            "changed since their review"
+        ),
     )
     parser.add_argument("--port", type=int, default=0, help="the port of the page (default: a free port)")
     parser.add_argument("--no-browser", dest="browser", action="store_false", help="open no browser")
@@ -190,7 +206,11 @@ def _points(options: SimpleNamespace) -> int:
 def _points_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("file", type=Path, metavar="FILE", help="the new file, such as points.json")
     parser.add_argument(
-        "--chapters", type=_chapters, default=(), metavar="05,06", help="only the parts of these chapters"
+        "--chapters",
+        type=_chapters,
+        default=(),
+        metavar="05,06",
+        help=("write only the parts of these chapters"),
     )
 
 
@@ -202,23 +222,30 @@ def _autograde(options: SimpleNamespace) -> int:
 
 def _autograde_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
-        "root", type=Path, nargs="?", default=Path("/autograder"), help="the folder of the platform"
+        "root",
+        type=Path,
+        nargs="?",
+        default=Path("/autograder"),
+        help=("the folder that Gradescope provides (default: /autograder)"),
     )
     parser.add_argument(
-        "--prepare", action="store_true", help="only make the checks and the solutions unreadable for others"
+        "--prepare",
+        action="store_true",
+        help=("do not grade; only make the checks and the solutions unreadable for other users"),
     )
 
 
 COMMANDS = {
     "grade": Command("grade what students handed in, and write the reports", _grade, NEEDS, _grade_arguments),
     "grade-one": Command(
-        "grade one notebook into one file, for a job array of a cluster",
+        "grade one notebook and write one file, for a job array on a cluster",
         _grade_one,
         NEEDS,
         _grade_one_arguments,
     ),
     "points": Command(
-        "write the points of each part and goal into a file, to change them for course grade --points",
+        "write the points of each part and goal into a file, which you can change and give to `course grade "
+        "--points`",
         _points,
         NEEDS,
         _points_arguments,
@@ -230,7 +257,7 @@ COMMANDS = {
         _autograde_arguments,
     ),
     "review": Command(
-        "review answers by hand: change points, and write comments, on a page",
+        "review answers by hand: on a page, change points and write comments",
         _review,
         frozenset({"course", "libraries", "solutions"}),
         _review_arguments,

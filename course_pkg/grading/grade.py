@@ -14,9 +14,9 @@ from typing import Any
 from course_pkg.checking.report import Report, report_from
 from course_pkg.sandbox.job import WorkFile
 
-IN_PACKAGES = "Examined in the packages, not in the cells of the notebook"
+IN_PACKAGES = "The checks of these parts examine the packages, not the cells of the notebook"
 NOTHING = "The student handed in nothing"  # If a student's folder is empty, `problem` begins with this text.
-NO_TIME = "The submission time is not known, so this submission is treated as on time."
+NO_TIME = "The submission time is not known, so no points are deducted for lateness."
 
 
 @dataclass(frozen=True)

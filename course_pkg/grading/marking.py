@@ -170,13 +170,13 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
     part, report = planned.part, result.report
     if report is None:
         verdict = Verdict.UNDECIDED if result.lost else Verdict.FAILED
-        note = f"No points: {result.ending}."
+        note = f"There are no points, because {result.ending}."
         return Report(part.check, verdict, part.goal, 0, part.points, note=note)
     if report.verdict is Verdict.PASSED:
         return report
     if report.verdict is Verdict.UNDECIDED:
         # The part counts as failed, because a student's answer can prevent the check from finishing.
-        note = f"No points, because the check could not finish: {report.note}"
+        note = f"There are no points, because the check could not finish: {report.note}"
         return Report(part.check, Verdict.FAILED, part.goal, 0, part.points, note=note, inconclusive=True)
     errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]
     note = " ".join(filter(None, [report.note, *(f"The cell raised {error}" for error in errors[-1:])]))

@@ -78,7 +78,10 @@ def read_points(path: Path | None) -> PointsTable:
     if EVERY in given and given[EVERY] != ALL_OR_NOTHING:
         raise _wrong(
             path,
-            f'{EVERY!r} can only be "{ALL_OR_NOTHING}". To change the points, write a number for each part.',
+            (
+                f'the value of {EVERY!r} can only be "{ALL_OR_NOTHING}". To change the points, write a '
+                "number for each part."
+            ),
         )
     worth = {
         check: _worth(part, given[check], path)
@@ -99,7 +102,7 @@ def write_points(path: Path, asked: Sequence[str] = ()) -> None:
     if unknown := sorted(set(asked) - set(chapters())):
         raise GradingError(f"There is no chapter {unknown[0]}. The chapters are {', '.join(chapters())}.")
     if path.exists():
-        raise GradingError(f"{path} exists already. Give another file, or delete the old file first.")
+        raise GradingError(f"{path} already exists. Give another file, or delete the old file first.")
     table = {
         part.check: {goal.text: goal.points for goal in part.goals} or part.points
         for chapter in asked or chapters()
@@ -135,7 +138,7 @@ def _read(path: Path) -> dict[str, Any]:
 def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     names = [name for name, _ in pairs]
     if doubles := [name for name in names if names.count(name) > 1]:
-        raise ValueError(f"{doubles[0]!r} occurs more than once; remove one of the two")
+        raise ValueError(f"{doubles[0]!r} occurs more than once; keep only one of these entries")
     return dict(pairs)
 
 

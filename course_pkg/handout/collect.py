@@ -163,7 +163,7 @@ def _report(found: Collected, options: Options, homes: int) -> Iterator[str]:
             f"{options.out / TIMES}."
         )
     if found.nothing:
-        yield f"No work was found for {len(found.nothing)}: {', '.join(found.nothing)}"
+        yield f"No work was found for {_count(len(found.nothing), 'student')}: {', '.join(found.nothing)}"
     for title, lines in (
         ("Not collected:", found.problems),
         (

@@ -36,11 +36,17 @@ def _release_arguments(parser: ArgumentParser) -> None:
         "out",
         metavar="DIR",
         type=Path,
-        help="the folder and git repository, new or from an earlier release; the zip is DIR.zip",
+        help=(
+            "the folder for the release: a new folder, or the git repository of an earlier release. The zip "
+            "file is DIR.zip"
+        ),
     )
     which = parser.add_mutually_exclusive_group()
     which.add_argument(
-        "--path", default="", metavar="NAME", help='the chapters of a path, such as "The lab session"'
+        "--path",
+        default="",
+        metavar="NAME",
+        help=('only the notebooks of a path through the course, such as "The lab session"'),
     )
     which.add_argument(
         "--chapters", type=_chapters, default=(), metavar="05,06", help="only the notebooks of these chapters"
@@ -70,24 +76,33 @@ def _collect_arguments(parser: ArgumentParser) -> None:
         help="the course's folder in each home folder, such as ros-course or work/ros-course",
     )
     parser.add_argument(
-        "out", metavar="SUBMISSIONS", type=Path, help="the folder to write, new or written by this command"
+        "out",
+        metavar="SUBMISSIONS",
+        type=Path,
+        help=("the folder for the copied work: a new folder, or a folder that this command wrote earlier"),
     )
     parser.add_argument(
         "--homes",
         type=Path,
         default=Path("/home"),
         metavar="DIR",
-        help="the folder that contains the home folders (/home)",
+        help="the folder that contains the home folders (default: /home)",
     )
     parser.add_argument(
         "--students",
         type=Path,
         metavar="FILE",
-        help="only these students: a text file with one user name in each line, or a CSV file with a column "
-        "`username` (default: all folders in DIR)",
+        help=(
+            "copy only the work of these students: a text file with one user name in each line, or a CSV "
+            "file with a column `username` (default: all folders in DIR)"
+        ),
     )
     parser.add_argument(
-        "--chapters", type=_chapters, default=(), metavar="05,06", help="only the work for these chapters"
+        "--chapters",
+        type=_chapters,
+        default=(),
+        metavar="05,06",
+        help=("copy only the work for these chapters"),
     )
 
 
@@ -99,26 +114,33 @@ def _autograder(options: SimpleNamespace) -> int:
 
 
 def _autograder_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("out", metavar="OUT.zip", type=Path, help="the zip to write")
+    parser.add_argument("out", metavar="OUT.zip", type=Path, help="the name of the new zip file")
     parser.add_argument(
-        "--chapters", type=_chapters, default=(), metavar="05,06", help="the chapters of the assignment (all)"
+        "--chapters",
+        type=_chapters,
+        default=(),
+        metavar="05,06",
+        help=("the chapters of the assignment (default: all)"),
     )
     parser.add_argument(
-        "--private", type=Path, metavar="DIR", help="a folder with private checks and other points"
+        "--private", type=Path, metavar="DIR", help="a folder with your own private checks and points"
     )
     parser.add_argument(
         "--minutes",
         type=float,
         default=9.0,
-        help="the time limit of a run, which must be shorter than that of Gradescope (default: 9)",
+        help=(
+            "the time limit of a run, in minutes (default: 9). It must be shorter than Gradescope's own "
+            "time limit"
+        ),
     )
     parser.add_argument(
         "--late-per-day",
         type=float,
         metavar="PERCENT",
         help=(
-            "the percentage of the points that is deducted for each late day. A day counts as soon as "
-            "it has begun"
+            "the percentage of the points that is deducted for each late day. A day that has begun counts "
+            "as a whole day"
         ),
     )
     parser.add_argument(
@@ -137,7 +159,7 @@ COMMANDS = {
         _release_arguments,
     ),
     "collect": Command(
-        "copy students' work from their home folders, with the rights of each student",
+        "copy students' work from their home folders; each folder is read with the rights of its student",
         _collect,
         frozenset({"course", "libraries"}),
         _collect_arguments,

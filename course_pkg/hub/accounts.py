@@ -20,9 +20,9 @@ def check_names(names: Iterable[str]) -> None:
     wrong = [name for name in names if not NAME.fullmatch(name)]
     if wrong:
         raise HubError(
-            f"These are not names of accounts: {', '.join(map(repr, wrong))}. A name has at most 32 "
-            "characters, begins with a letter, and contains only a to z, 0 to 9, _ and -. Change "
-            "the names in the list."
+            f"These names cannot be names of accounts: {', '.join(map(repr, wrong))}. A name has at most 32 "
+            "characters, begins with a letter, and contains only a to z, 0 to 9, _ and -. Change the names "
+            "in the list."
         )
 
 

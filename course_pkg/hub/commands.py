@@ -35,9 +35,11 @@ def _hub_arguments(parser: ArgumentParser) -> None:
         help="print a new one-time password for USER, but do not start a hub",
     )
     parser.add_argument(
-        "--port", type=int, help="the port on which the hub listens (8000, or the next free port)"
+        "--port", type=int, help="the port on which the hub listens (default: 8000, or the next free port)"
     )
-    parser.add_argument("--ip", default="127.0.0.1", help="the address on which the hub listens (127.0.0.1)")
+    parser.add_argument(
+        "--ip", default="127.0.0.1", help=("the address on which the hub listens (default: 127.0.0.1)")
+    )
     parser.add_argument("--cert", type=Path, metavar="FILE", help="the TLS certificate, in PEM format")
     parser.add_argument("--key", type=Path, metavar="FILE", help="the private key of the certificate")
     parser.add_argument("--teacher", default="", metavar="USER", help="a user who administers the hub")
@@ -45,20 +47,27 @@ def _hub_arguments(parser: ArgumentParser) -> None:
         "--without-accounts",
         type=Path,
         metavar="DIR",
-        help="only to try the hub: all servers run as you, with home folders below DIR",
+        help=(
+            "use this option only to try the hub: all servers run under your account, and the home folders "
+            "are in DIR"
+        ),
     )
     parser.add_argument(
-        "--memory", type=int, default=1024, metavar="MIB", help="the limit for each student (1024 MiB)"
+        "--memory",
+        type=int,
+        default=1024,
+        metavar="MIB",
+        help=("the memory limit for each student, in MiB (default: 1024)"),
     )
     parser.add_argument(
         "--processes",
         type=int,
         default=500,
         metavar="N",
-        help="the limit of processes and threads for each student (500)",
+        help="the largest number of processes and threads for each student (default: 500)",
     )
     parser.add_argument(
-        "--data", type=Path, metavar="DIR", help="the folder of the hub's passwords, database and log"
+        "--data", type=Path, metavar="DIR", help="the folder for the hub's passwords, database and log"
     )
 
 

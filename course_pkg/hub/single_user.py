@@ -69,7 +69,7 @@ def pull(repository: str, folder: Path) -> None:
         done = subprocess.run(command, env=environment, timeout=PULL_TIMEOUT, check=False)
         failure = f"exit status {done.returncode}" if done.returncode else ""
     except subprocess.TimeoutExpired:
-        failure = f"no end within {PULL_TIMEOUT:g} s"
+        failure = f"the command did not end within {PULL_TIMEOUT:g} s"
     except subprocess.CalledProcessError as error:
         failure = f"git: {error.stderr.strip() or error}"
     if failure:

@@ -102,15 +102,15 @@ def serve_hub(options: Options) -> int:
         problem, remedy = network_problem(None if homes else ORDINARY)
         if problem:
             sys.stdout.write(
-                "The students get no private networks, so everybody who can log in on this "
-                f"machine can call, replace and stop their nodes: {problem}. {remedy}.\n"
+                f"The students get no private networks ({problem}). Therefore, all users of this machine can "
+                f"call, replace and stop the students' nodes. {remedy}.\n"
             )
         if homes:
-            sys.stdout.write("All servers run as you, so students can read each other's files.\n")
+            sys.stdout.write("All servers run under your account, so students can read each other's files.\n")
         sys.stdout.write(
-            f"One-time passwords: {table}\nThe hub of {len(students)} students starts at\n\n"
-            f"    {scheme}://{_in_url(reached_at(options.ip))}:{port}\n\n"
-            "Ctrl-C here ends the hub and all servers.\n"
+            f"One-time passwords: {table}\nThe hub for {len(students)} students starts. Its address is\n\n "
+            f"   {scheme}://{_in_url(reached_at(options.ip))}:{port}\n\nPress Ctrl-C in this terminal to end "
+            "the hub and all servers.\n"
         )
         sys.stdout.flush()
         return _run(places, settings)
@@ -168,8 +168,8 @@ def _require_protection(places: Places) -> None:
     for folder in (places.python, places.environment, places.checkout / "course_pkg"):
         if closed := _closed(folder):
             raise HubError(
-                f"The students' accounts need the files in {closed}, but cannot read them. Install "
-                "the course in a folder that everybody can read, such as /opt/ros-course, with "
+                f"The students' accounts need the files in {closed}, but cannot read them. Install the "
+                "course in a folder that everybody can read, such as /opt/ros-course, and set "
                 "XDG_CACHE_HOME=/opt/cache."
             )
     for name in ("solutions", "tests"):

@@ -80,8 +80,8 @@ def write_bundle(out: Path) -> int:
     (out / "install.sh").write_text(install_script(names))
     size = sum(path.stat().st_size for path in out.rglob("*") if path.is_file()) >> 20
     sys.stdout.write(
-        f"{out} ({size} MB) installs the course on {platform.name} without internet. Copy the folder, and "
-        "type in the copy:\n  sudo sh install.sh\n"
+        f"{out} ({size} MB) installs the course on {platform.name} without internet. Copy the folder to the "
+        "other machine, and type in the copied folder:\n  sudo sh install.sh\n"
     )
     return 0
 

@@ -20,7 +20,10 @@ def _install(options: SimpleNamespace) -> int:
 
 def _prefix_argument(parser: ArgumentParser) -> None:
     parser.add_argument(
-        "--prefix", type=Path, metavar="DIR", help="the installation's folder (/opt/ros-services-course)"
+        "--prefix",
+        type=Path,
+        metavar="DIR",
+        help=("the installation's folder (default: /opt/ros-services-course)"),
     )
 
 
@@ -30,7 +33,10 @@ def _install_arguments(parser: ArgumentParser) -> None:
         "--bin",
         type=Path,
         metavar="DIR",
-        help="the folder for the command `course` (/usr/local/bin, or ~/.local/bin without root)",
+        help=(
+            "the folder for the command `course` (default: /usr/local/bin, or ~/.local/bin if you are not "
+            "root)"
+        ),
     )
 
 
@@ -54,7 +60,9 @@ def _bundle(options: SimpleNamespace) -> int:
 
 
 def _bundle_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("out", metavar="OUT", type=Path, help="the folder to write, new or empty")
+    parser.add_argument(
+        "out", metavar="OUT", type=Path, help=("the folder for the installer; it must be new or empty")
+    )
 
 
 COMMANDS = {
@@ -62,7 +70,7 @@ COMMANDS = {
         "install the course for all users of this machine", _install, frozenset(), _install_arguments
     ),
     "uninstall": Command(
-        "remove what `course install` made; the users' own folders stay",
+        "remove the installation that `course install` made, but keep the users' own folders",
         _uninstall,
         frozenset(),
         _uninstall_arguments,

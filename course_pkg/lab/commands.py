@@ -27,10 +27,12 @@ def _lab(options: SimpleNamespace) -> int:
 
 
 def _lab_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("notebook", nargs="?", help="the notebook to open (the first chapter)")
+    parser.add_argument("notebook", nargs="?", help="the notebook to open (default: the first chapter)")
     parser.add_argument("--no-browser", dest="browser", action="store_false", help="do not open a browser")
-    parser.add_argument("--port", type=int, help="the port to listen on (8888, or the next free one)")
-    parser.add_argument("--ip", default="127.0.0.1", help="the address to listen on (127.0.0.1)")
+    parser.add_argument(
+        "--port", type=int, help=("the port to listen on (default: 8888, or the next free port)")
+    )
+    parser.add_argument("--ip", default="127.0.0.1", help="the address to listen on (default: 127.0.0.1)")
     parser.add_argument(
         SHARED,
         action="store_true",
@@ -51,10 +53,10 @@ def _run(options: SimpleNamespace) -> int:
 
 COMMANDS = {
     "lab": Command(
-        "start JupyterLab with the first chapter, and a ROS graph", _lab, add_arguments=_lab_arguments
+        "start a ROS graph and JupyterLab, and open the first chapter", _lab, add_arguments=_lab_arguments
     ),
     "run": Command(
-        "run a command in the environment, on the running ROS graph or on a new one",
+        "run a command in the course's environment, on the running ROS graph or on a new graph",
         _run,
         rest=f"[{NEW} | {SHARED}] COMMAND [ARGUMENT …]",
     ),

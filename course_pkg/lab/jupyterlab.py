@@ -230,8 +230,8 @@ def _announce(address: Address, notebook: str, root: Path, browser: bool) -> Non
     url = f"{address.url}{page}?token={address.token}"
     opened = browser and webbrowser.open(url)
     sys.stdout.write(
-        f"JupyterLab serves {root} at\n\n    {url}\n\n"
-        f"{'The page opens in your browser.' if opened else 'Open this address in your browser.'} "
-        "Ctrl-C here ends JupyterLab, its kernels, and the ROS master.\n"
+        f"JupyterLab serves {root} at\n\n    "
+        f"{url}\n\n{'The page opens in your browser.' if opened else 'Open this address in your browser.'} "
+        "Press Ctrl-C in this terminal to end JupyterLab, its kernels, and the ROS master.\n"
     )
     sys.stdout.flush()

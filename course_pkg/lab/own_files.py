@@ -39,9 +39,8 @@ def make_own_files(places: Places) -> None:
         ) from error
     if kept:
         sys.stderr.write(
-            f"There is a new version of {', '.join(kept)}. Your version contains your work, so "
-            "the file was not changed. To get the new version, rename your version, and start "
-            "again.\n"
+            f"There is a new version of {', '.join(kept)}. Your version contains your work, so the file was "
+            "not changed. To get the new version, rename your version, and start the course again.\n"
         )
 
 

@@ -29,7 +29,7 @@ def measure(request: geometryRequest) -> geometryResponse:
         value = getattr(request, side)
         if value < 0 or not math.isfinite(value):
             rospy.logwarn("Refused: %s is %g", side, value)
-            raise rospy.ServiceException(f"{side} is {value:g}, and a side is finite and not negative")
+            raise rospy.ServiceException(f"{side} is {value:g}, but has to be finite and not negative")
     area = request.width * request.length
     response = geometryResponse(area=area, volume=area * request.height)
     sides = (request.length, request.width, request.height)

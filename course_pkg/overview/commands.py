@@ -36,7 +36,7 @@ def _write(path: Path, content: str) -> None:
         write_atomically(path, content)
     except OSError as error:
         raise ExportFailed(
-            f"{path} cannot be written ({error.strerror}). Choose a file in a folder in which you may write."
+            f"{path} cannot be written ({error.strerror}). Choose a file in a folder that you can write to."
         ) from error
     sys.stdout.write(f"{path.resolve()}\n")
 
@@ -44,7 +44,9 @@ def _write(path: Path, content: str) -> None:
 def _arguments(parser: ArgumentParser) -> None:
     parser.add_argument("chapter", nargs="?", metavar="CHAPTER", help="show only this chapter, such as 05")
     parser.add_argument("--csv", metavar="FILE", help="write a table of parts and predictions to FILE")
-    parser.add_argument("--html", metavar="FILE", help="write a page to FILE that needs no other files")
+    parser.add_argument(
+        "--html", metavar="FILE", help=("write a web page to FILE; the page needs no other files")
+    )
 
 
 COMMANDS = {

@@ -36,7 +36,7 @@ def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
         return [Step("You have passed all parts of the course.")]
     return [
         Step(
-            f"Chapter {number}, {by_number[number].title}, for {' and '.join(names)}",
+            f"Chapter {number}, {by_number[number].title} (path: {' and '.join(names)})",
             by_number[number].notebook,
         )
         for number, names in sorted(following.items())

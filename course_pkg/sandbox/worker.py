@@ -110,7 +110,7 @@ class Session:
         """
         with ExitStack() as stack:
             messages, commands = self._begin(stack)
-            record, ending = None, "its processes could not be started"
+            record, ending = None, "the processes of this part could not be started"
             try:
                 network, port, listener = self._placed(stack)
                 record, ending = self._checked(network, port, listener, commands)
@@ -208,7 +208,7 @@ class Session:
         if self._over is None:
             return f"the check was not finished after {self._limit:g} s"
         code = os.waitstatus_to_exitcode(self._over)
-        return ENDINGS.get(code, "the processes of this part were lost")
+        return ENDINGS.get(code, "the processes of this part ended unexpectedly")
 
     def _end_supervisor(self) -> None:
         if self._over is None and self._supervisor:

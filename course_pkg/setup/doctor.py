@@ -104,7 +104,7 @@ def _disk(places: Places) -> Finding:
 def _master() -> Finding:
     given = os.environ.get("ROS_MASTER_URI")
     if not given:
-        return Finding("ROS_MASTER_URI", "not set: a command starts a master, or joins a running graph")
+        return Finding("ROS_MASTER_URI", "not set, so each command starts a master or joins a running graph")
     try:
         parts = urlsplit(given)
         well_formed = parts.scheme == "http" and bool(parts.hostname) and bool(parts.port)

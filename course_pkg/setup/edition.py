@@ -25,9 +25,9 @@ def require_solutions(checkout: Path, command: str) -> None:
     """Raise SetupError if `checkout` has no solutions, because `command` needs them."""
     if (checkout / RECORD).exists():
         raise SetupError(
-            f"`course {command}` needs the solutions, but {checkout} is the students' edition, "
-            "which contains no solutions. Type the command in the instructors' edition, where "
-            "`course release` was typed."
+            f"`course {command}` needs the solutions, but {checkout} is the students' edition, which "
+            "contains no solutions. Type the command in the instructors' edition, from which `course "
+            "release` created this edition."
         )
     if not any((checkout / "solutions").glob("[0-9][0-9]_*.ipynb")):
         raise SetupError(

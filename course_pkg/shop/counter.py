@@ -67,5 +67,5 @@ def _require_seconds(field: str, value: float) -> None:
             field,
             value,
             f"a number of seconds from 0 to {LONGEST:g}",
-            f"{value:g} s is not a possible time to wait",
+            f"{value:g} s is not a valid waiting time",
         )

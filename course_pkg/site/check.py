@@ -104,7 +104,7 @@ class _Reader(HTMLParser):
         if tag == "script" and source:
             self.links.append(source)
         if urlsplit(source).netloc:
-            self.faults.append(f"it would load {source} from another computer")
+            self.faults.append(f"the page would load {source} from another computer")
         handlers = [name for name in given if name.startswith("on")]
         if handlers or (tag == "script" and not source and given.get("type") != "text/plain"):
             self.faults.append(f"the page contains a script: <{' '.join([tag, *handlers])}>")

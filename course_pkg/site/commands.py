@@ -30,15 +30,24 @@ def _site(options: SimpleNamespace) -> int:
 
 def _site_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
-        "chapters", nargs="*", metavar="CHAPTER", help="run only these chapters, if they changed (all)"
+        "chapters",
+        nargs="*",
+        metavar="CHAPTER",
+        help=("run only these chapters, and only if they have changed (default: all chapters)"),
     )
-    parser.add_argument("--out", metavar="DIR", help="the folder to write to (a folder in the cache)")
+    parser.add_argument(
+        "--out", metavar="DIR", help=("the folder for the pages (default: a folder in the cache)")
+    )
     parser.add_argument("--student", action="store_true", help="show the notebooks without answers")
     parser.add_argument(
-        "--check", action="store_true", help="report dead links and missing descriptions afterwards"
+        "--check",
+        action="store_true",
+        help=("after writing the pages, report broken links and missing descriptions"),
     )
     parser.add_argument("--pdf", action="store_true", help="also print all chapters as a book, with Chromium")
-    parser.add_argument("--stored", dest="execute", action="store_false", help="run no notebook")
+    parser.add_argument(
+        "--stored", dest="execute", action="store_false", help=("run no notebook; use the stored outputs")
+    )
     parser.add_argument("--binder", metavar="URL", help="the address at which Binder opens the repository")
 
 

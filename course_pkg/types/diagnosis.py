@@ -199,11 +199,13 @@ class _Diagnosis:
                 line, word.column, f"{name} is a method of every message", f"write {name}_it, for example"
             )
         if self.strict and (name in keyword.kwlist or name == "self"):
-            problem = f"{name} is a keyword of Python, where the field would be {name}_"
+            problem = f"{name} is a keyword of Python, so the field would have the name {name}_ in Python"
             raise self._broken(line, word.column, problem, "write another name")
         if name in self.names:
             problem = f"{name} is already declared in line {self.names[name]}"
-            raise self._broken(line, word.column, problem, "write another name, or remove one of the two")
+            raise self._broken(
+                line, word.column, problem, ("write another name, or remove one of the two lines")
+            )
         self.names[name] = line.number
 
     def _name_advice(self, line: Line, name: str) -> str:
@@ -249,14 +251,14 @@ class _Diagnosis:
     def _string(self, line: Line, value: str) -> None:
         if line.text[:1].isspace():
             raise self._broken(
-                line, 1, "a string constant cannot be indented", "begin it in the first column"
+                line, 1, "a string constant cannot be indented", "begin the constant in the first column"
             )
         if self.strict and "\\" in value:
             column = line.text.index("\\") + 1
             raise self._broken(
                 line,
                 column,
-                "Python would read the backslash as an escape",
+                "Python would read the backslash as the start of an escape sequence",
                 "write the string without a backslash",
             )
 
@@ -264,7 +266,7 @@ class _Diagnosis:
         text = value.strip()
         column = line.text.index("=") + 2 + len(value) - len(value.lstrip())
         if not text:
-            raise self._broken(line, column, "the value is missing", "write it after =")
+            raise self._broken(line, column, "the value is missing", "write the value after =")
         limits = integer_range(type_name)
         if problem := _unreadable(type_name, text):
             raise self._broken(line, column, f"{text!r} is not {problem[0]}", f"write {problem[1]}")

@@ -111,8 +111,8 @@ def unknown_type(name: str, kind: DefinitionKind) -> UnknownType:
         advice = f"the package {package} contains no {kind}/{short}.{kind}"
     else:
         advice = (
-            f"no package {package} is on ROS_PACKAGE_PATH; is its name right, is it built, "
-            "and is its setup.bash sourced?"
+            f"no package {package} is on ROS_PACKAGE_PATH; check its name, build the package, and source the "
+            "setup.bash of its workspace"
         )
     same = [each for each in known if each.lower() == name.lower()]
     problem = "upper and lower case are different" if same else f"no {what} type has this name"

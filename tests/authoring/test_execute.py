@@ -83,7 +83,7 @@ def test_a_cell_that_stops_the_run_is_named(tmp_path: Path) -> None:
     """If a cell fails, the error message contains its id, and the stored notebook does not change."""
     path = solution(tmp_path, code("1 / 0", id="boom"))
     before = path.read_text()
-    with pytest.raises(AuthoringError, match="cell boom stopped the run with ZeroDivisionError"):
+    with pytest.raises(AuthoringError, match="the run stopped at cell boom: ZeroDivisionError"):
         execute(["05"], tmp_path)
     assert path.read_text() == before
 

@@ -107,7 +107,7 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
     [
         (
             [exercise(), exercise(), check()],
-            r"cell exercise-05-1.*: an earlier cell of this kind also has the id 05.1",
+            r"cell exercise-05-1.*: an earlier cell already has the id 05.1",
         ),
         ([check()], "check 05.1 has no exercise cell above it"),
         ([exercise()], "exercise 05.1 has no check cell"),
@@ -116,7 +116,7 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
         ([exercise("05.99"), check("05.99")], "no check is declared for 05.99"),
         ([exercise(source="print(1)"), check()], "this exercise contains no answer"),
         ([exercise(), code("1", course={"check": "05.1"})], r'does not call check\("05.1"\)'),
-        ([text("x")], "part 05.1 is declared in the checks and has no exercise cell"),
+        ([text("x")], "part 05.1 is declared in the checks, but it has no exercise cell"),
         (
             [
                 code(
@@ -126,7 +126,10 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
                     execution_count=1,
                 )
             ],
-            "cell boom: ends with E: v; add the tag raises-exception",
+            (
+                "cell boom: the cell raises E: v; if the cell should raise this error, "
+                "add the tag raises-exception"
+            ),
         ),
     ],
 )

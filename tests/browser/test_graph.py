@@ -115,8 +115,8 @@ def test_a_saved_namespace_lists_its_shapes(widget: GraphPanel, page: Page, tmp_
     graph = panel(page, "Graph panel")
     box = shape(graph, "namespace /robot_1/")
     expect(box).to_have_attribute("aria-expanded", "false")
-    # With live=False, the panel does not show the sentence "this picture was saved".
-    expect(graph.get_by_text("this picture was saved")).not_to_be_attached()
+    # With live=False, the panel does not show the sentence "this is a saved picture".
+    expect(graph.get_by_text("this is a saved picture")).not_to_be_attached()
     box.click()
     expect(graph.locator(".ros-details")).to_contain_text("/robot_1/topic_1 10 Hz")
     expect(box).to_have_attribute("aria-expanded", "false")
@@ -277,7 +277,7 @@ def test_rates_callers_and_folds_follow_the_graph(lab: Lab, lab_page: Page) -> N
     with running_notebook(lab_page, lab, "talk", TALK, CALL, "GraphPanel()", delayed):
         graph = panel(lab_page, "Graph panel")
         expect(shape(graph, "topic /robot/said")).to_contain_text("10 Hz")
-        expect(shape(graph, "topic /robot/unheard")).to_contain_text("no listener")
+        expect(shape(graph, "topic /robot/unheard")).to_contain_text("no subscriber")
         shape(graph, "service /robot/ask").click()
         details = graph.locator(".ros-details")
         expect(details).to_contain_text("called by /talk_test")

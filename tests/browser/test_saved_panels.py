@@ -79,7 +79,7 @@ def test_shapes_of_a_saved_graph_can_be_clicked(page: Page, tmp_path: Path) -> N
     """A click on a shape of a saved graph shows its details."""
     page.goto(save(GraphPanel(), tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
-    expect(graph.get_by_text("this picture was saved")).to_be_visible()
+    expect(graph.get_by_text("this is a saved picture")).to_be_visible()
     graph.get_by_role("button", name="service /getGeometry").click()
     expect(graph.locator(".ros-details")).to_contain_text("course_pkg/geometry")
 
@@ -149,7 +149,7 @@ def test_a_chart_is_read_by_keyboard_and_pointer(page: Page, tmp_path: Path) -> 
     expect(drawn.get_by_role("img")).to_have_attribute(
         "aria-label", "a line of 4 points, data against time since the subscription began (s)"
     )
-    expect(drawn.get_by_text("1 of 4 values are left out")).to_be_visible()
+    expect(drawn.get_by_text("1 of 4 values are not drawn")).to_be_visible()
     canvas.focus()
     since = "time since the subscription began"
     for key, text in {

@@ -100,7 +100,7 @@ def test_a_click_describes_the_event(page: Page, tmp_path: Path) -> None:
     expect(details).to_contain_text("handler (/cashier) 497 ms")
     picture(timeline, "timeline-chosen")
     click(page, timeline, 0.45, 3)
-    expect(details).to_contain_text("/cashier worked 497 ms on /detect for /customer.")
+    expect(details).to_contain_text("/cashier worked for 497 ms on /detect for /customer.")
     click(page, timeline, 0.055, 1)
     expect(details).to_contain_text(
         "/simulator spent 9.8 ms in a callback for a message on /joints from /robot."
@@ -131,7 +131,9 @@ def test_the_keyboard_is_sufficient(page: Page, tmp_path: Path) -> None:
     details, whole = timeline.locator(".ros-details"), ticks(timeline)
     drawing(timeline).focus()
     page.keyboard.press("ArrowDown")
-    expect(details).to_contain_text("/robot published on /joints and did not wait. 1 callback got it.")
+    expect(details).to_contain_text(
+        "/robot published on /joints and did not wait. 1 callback received the message."
+    )
     page.keyboard.press("ArrowDown")
     expect(details).to_contain_text("/simulator spent")
     page.keyboard.press("ArrowUp")
@@ -170,7 +172,7 @@ def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
     assert wide > 50
     y = spot(timeline, 0, 2)[1]
     drawing(timeline).click(position={"x": box["width"] * share + wide * 1.5, "y": y})
-    expect(details).to_contain_text("/customer connected to /cashier for /detect: 1 ms.")
+    expect(details).to_contain_text("/customer connected to /cashier to call /detect. This took 1 ms.")
 
 
 def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
@@ -203,8 +205,8 @@ def test_the_same_as_a_table(page: Page, tmp_path: Path) -> None:
     timeline = show(page, tmp_path, recording())
     expect(timeline.get_by_text("/customer waited for /cashier on /detect: 500 ms.")).to_be_visible()
     expect(timeline.get_by_text("/robot published 19 messages on /joints")).to_be_visible()
-    expect(timeline.get_by_text("On record, and idle: /idle.")).to_be_visible()
-    expect(timeline.get_by_text("Not recorded: /old, it keeps no record.")).to_be_visible()
+    expect(timeline.get_by_text("Recorded without events: /idle.")).to_be_visible()
+    expect(timeline.get_by_text("Not recorded: /old, because it keeps no record.")).to_be_visible()
     timeline.get_by_text("The same as a table").click()
     expect(timeline.get_by_role("row")).to_have_count(1 + 6 + 2 * 19)
     expect(timeline.get_by_role("row", name="wait")).to_contain_text("202.100")
@@ -216,7 +218,9 @@ def test_a_call_that_is_not_over(page: Page, tmp_path: Path) -> None:
     timeline = show(page, tmp_path, recording(open_end=True))
     click(page, timeline, 0.6, 2)
     expect(timeline.locator(".ros-details")).to_contain_text("was still waiting when the recording ended.")
-    expect(timeline.get_by_text("800 ms, and it is not finished.")).to_be_visible()
+    expect(
+        timeline.get_by_text("800 ms. The call had not finished when the recording ended.")
+    ).to_be_visible()
     timeline.get_by_text("The same as a table").click()
     expect(timeline.get_by_role("row", name="wait")).to_contain_text("not finished")
 

@@ -65,7 +65,7 @@ def test_a_saved_browser_keeps_what_was_open(
     page.set_viewport_size({"width": width, "height": 1000})
     page.goto(save(TypeBrowser("sensor_msgs/SetCameraInfo"), tmp_path / "page.html", theme))
     browser = panel(page, "Type browser")
-    expect(browser.get_by_text("No kernel answers: this browser was saved.")).to_be_visible()
+    expect(browser.get_by_text("No kernel answers: this is a saved panel.")).to_be_visible()
     browser.get_by_label("Find a type").fill("bool")
     expect(options(browser)).to_have_count(1)
     browser.get_by_role("option", name="SetBool").click(force=True)

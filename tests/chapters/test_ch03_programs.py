@@ -188,8 +188,8 @@ def test_detector_refuses_without_a_camera() -> None:
 @pytest.mark.parametrize(
     ("after", "stay", "words"),
     [
-        ([0.0, math.nan], 1.0, r"after\[1\]: nan s is not a possible time to wait"),
-        ([-1.0], 1.0, r"after\[0\]: -1 s is not a possible time to wait"),
+        ([0.0, math.nan], 1.0, r"after\[1\]: nan s is not a valid waiting time"),
+        ([-1.0], 1.0, r"after\[0\]: -1 s is not a valid waiting time"),
         ([0.0], math.inf, "stay: inf s"),
         ([0.0] * 1001, 1.0, "1001 customers are too many"),
     ],

@@ -88,7 +88,7 @@ def test_second_run_uses_the_stored_grades(submissions: Path, undisturbed: Path)
     """A second run of the same command uses the grades of the first run."""
     before = points(undisturbed)
     done = grade(submissions, undisturbed)
-    assert "4 of 4 notebooks are graded from an earlier run" in done.stderr
+    assert "The grades of 4 of 4 notebooks come from an earlier run" in done.stderr
     assert points(undisturbed) == before
 
 

@@ -75,7 +75,7 @@ def test_package_is_examined_instead_of_the_cells(tmp_path: Path, seven: Plan) -
     assert paths == {f"src/my_geometry/{path}" for path in my_geometry()}
     assert jobs.given["07.9"].files == ()
     assert grade.notes[0] == (
-        f"Examined in the packages, not in the cells of the notebook: {', '.join(MINE)}."
+        f"The checks of these parts examine the packages, not the cells of the notebook: {', '.join(MINE)}."
     )
 
 

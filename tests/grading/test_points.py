@@ -68,7 +68,7 @@ def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
     changed = strict.weighed(before)
     assert read_points(None).weighed(changed) == before
     assert worth_changes([before], [changed])[1:] == [
-        "  05.3: its points are divided differently among its goals"
+        "  05.3: the points of this part are now divided differently among its goals"
     ]
     doubled = read_points(_read(tmp_path, '{"05.3": 4}')).weighed(before)
     assert worth_changes([before], [doubled])[1:] == ["  05.3: 2 before, 4 now"]
@@ -111,7 +111,7 @@ def test_the_written_file_changes_nothing(tmp_path: Path) -> None:
     path = tmp_path / "points.json"
     write_points(path)
     assert read_points(path) == read_points(None)
-    with pytest.raises(GradingError, match="exists already"):
+    with pytest.raises(GradingError, match="already exists"):
         write_points(path)
     write_points(tmp_path / "05.json", ["05"])
     assert list(json.loads((tmp_path / "05.json").read_text())) == [part.check for part in parts_of("05")]

@@ -189,7 +189,7 @@ def test_a_worksheet_without_a_maximum_grade_and_without_feedback(tmp_path: Path
     first, second = found.summary()
     assert first.startswith("Moodle's worksheet: 1 of 1 participants")
     assert "no maximum grade, so the points are not scaled" in first
-    assert "switch on the feedback type Feedback comments" in second
+    assert "switch on the feedback type *Feedback comments*" in second
 
 
 def test_anonymous_submissions_of_an_instructor_who_sees_names(tmp_path: Path, notebook: bytes) -> None:
@@ -209,7 +209,7 @@ def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> N
     out = tmp_path / "out"
     _, found = _graded(source, read_lists(None, _write(tmp_path / "sheet.csv", ENGLISH)), out)
     assert found.unclear == {
-        "Jo New_101": "the student's number fits a row with another name of Moodle's worksheet (line 2)"
+        "Jo New_101": "the student's number is in a row with a different name of Moodle's worksheet (line 2)"
     }
     assert (out / "moodle_worksheet.csv").read_bytes() == ENGLISH.encode()
 
@@ -291,7 +291,7 @@ def test_a_student_who_is_unclear_is_in_no_file_of_a_platform(tmp_path: Path) ->
     notes = {row["student"]: row["notes"] for row in _named(out / "grades.csv")}
     assert (
         notes["Sam Smith"]
-        == "This student was not identified: the student fits several rows of the roster (lines 2 and 3)."
+        == "This student was not identified: several rows fit the student of the roster (lines 2 and 3)."
     )
 
 

@@ -93,7 +93,7 @@ def test_work_is_where_the_grader_looks(
     assert run(homes, out) == 0
     printed = capsys.readouterr().out
     assert "2 notebooks and 1 package of 2 students" in printed
-    assert "No work was found for 2: carla, dora" in printed
+    assert "No work was found for 2 students: carla, dora" in printed
     assert (out / "anna" / NOTEBOOK).read_bytes() == notebook
     assert stat.S_IMODE(out.stat().st_mode) == 0o700
     assert not (out / "anna" / "own.ipynb").exists()
@@ -177,7 +177,7 @@ def test_no_link_is_followed(homes: Path, place: str) -> None:
     [home] = [each for each in homes_in(homes) if each.student == "anna"]
     files, [problem] = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
     assert files == []
-    assert "links are not followed" in problem
+    assert "the command does not follow links" in problem
 
 
 def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None:
@@ -295,7 +295,7 @@ def test_a_list_of_students(
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     add_home(homes, "teacher", {f"notebooks/{NOTEBOOK}": b"1"})
     run(homes, tmp_path / "out", students=tmp_path / "students")
-    assert "No work was found for 1: ben" in (printed := capsys.readouterr().out)
+    assert "No work was found for 1 student: ben" in (printed := capsys.readouterr().out)
     assert f"ben: there is no home folder {homes / 'ben'}" in printed
     assert not (tmp_path / "out" / "teacher").exists()
 

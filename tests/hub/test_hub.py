@@ -89,7 +89,7 @@ def test_a_second_hub_is_refused(address: str, folder: Path) -> None:
     ("names", "options", "message"),
     [
         (["Zoë"], [], "'Zoë'"),
-        (["anna.berg"], [], "These are not names of accounts"),
+        (["anna.berg"], [], "These names cannot be names of accounts"),
         (["anna"], ["--cert", "missing.pem"], "The options --cert and --key belong together"),
         (["anna"], ["--ip", "somewhere"], "is not an IP address"),
     ],

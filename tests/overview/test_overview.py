@@ -107,12 +107,12 @@ def test_after_a_complete_chapter_each_path_has_its_next_chapter() -> None:
     """The next steps contain only chapters that are not complete."""
     complete("00")
     text = " ".join(str(progress()).split())
-    assert "Next: Chapter 01, Name things and find them, for the whole course" in text
-    assert "or: Chapter 02, Stream data with a topic, for the turtle tutorial" in text
-    assert "or: Chapter 05, Write a server, for the lab session" in text
+    assert "Next: Chapter 01, Name things and find them (path: the whole course)" in text
+    assert "or: Chapter 02, Stream data with a topic (path: the turtle tutorial)" in text
+    assert "or: Chapter 05, Write a server (path: the lab session)" in text
     complete("01")
     text = " ".join(str(progress("01")).split())
-    assert "Next: Chapter 02, Stream data with a topic, for the whole course in" in text
+    assert "Next: Chapter 02, Stream data with a topic (path: the whole course) in" in text
     assert "lab session" not in text
 
 

@@ -277,7 +277,7 @@ def test_the_summary_of_a_chapter_lists_them(
     none = PredictionStore(tmp_path / "none.json")
     decide(choices_model, "a topic", "a topic")
     row = Predictions("03", store=none, choices=choice_store).records[0]
-    assert (row["state"], row["predicted"]) == ("open", "2 of 3 cases decided")
+    assert (row["state"], row["predicted"]) == ("open", "2 of 3 cases have an answer")
     choices_model.choose(2, "a topic")
     choices_model.compare()
     row = Predictions("03", store=none, choices=choice_store).records[0]

@@ -100,7 +100,7 @@ def wire_state() -> State:
     }
     step = {"says": "", "size": 0, "pieces": [], "text": "", "bad": False, "connection": 0, "ms": 0.25}
     steps = [
-        {**step, "title": "It is at rosrpc://localhost:40123", "from": "master", "to": "client"},
+        {**step, "title": "The service is at rosrpc://localhost:40123", "from": "master", "to": "client"},
         {
             **step,
             "title": "Error",

@@ -156,9 +156,9 @@ def test_too_many_calls() -> None:
 
 def test_nothing_recorded() -> None:
     """If no event was recorded, the panel only lists the nodes."""
-    empty = state(Recording(nodes=("/a",), unrecorded={"/b": "its process is gone"}, length=1.0))
+    empty = state(Recording(nodes=("/a",), unrecorded={"/b": "its process has ended"}, length=1.0))
     assert (empty["lanes"], empty["arrows"], empty["idle"]) == ([], [], ["/a"])
-    assert empty["unrecorded"] == [["/b", "its process is gone"]]
+    assert empty["unrecorded"] == [["/b", "its process has ended"]]
 
 
 def test_all_that_is_shown_comes_from_the_recording() -> None:
@@ -198,10 +198,10 @@ def test_in_plain_sentences() -> None:
     late = Event("wait", "/late", "/x", 6.0, None, "/cashier", "call 9", "MainThread")
     found = recording(late, lookup, error, *call(), *call("call 2", 2.0), *message(1, 2.0, "/simulator"))
     assert timeline_text(found).splitlines() == [
-        "/customer called /nope, and reached no server.",
+        "/customer called /nope, but reached no server.",
         "/customer called /x and waited for /cashier.",
-        "/late called /x and waited for /cashier, to the end of the recording.",
-        "/robot published /joints and did not wait; /simulator received it.",
+        "/late called /x and waited for /cashier until the recording ended.",
+        "/robot published on /joints and did not wait; /simulator received messages.",
     ]
     assert timeline_text(Recording()) == "Nothing was recorded."
 
@@ -209,7 +209,7 @@ def test_in_plain_sentences() -> None:
 def test_messages_without_a_subscriber() -> None:
     """If no node received a message, the description says whether a subscriber was connected."""
     (sent,) = message(1, 1.0)
-    assert timeline_text(recording(sent)).endswith("no recorded node received it.")
+    assert timeline_text(recording(sent)).endswith("no recorded node received messages.")
     lost = replace(sent, note="no subscriber was connected")
     assert timeline_text(recording(lost)).endswith("no subscriber was connected.")
     assert waits_of(recording(lost, sent))["streams"][0]["alone"] == 1

@@ -271,7 +271,7 @@ def test_failures_are_distinguished() -> None:
         "No process accepts the connection at localhost:1"
     ]
     probe = (True, header(probe="1", md5sum="*", callerid="/me", service="/x"))
-    assert "Connection header of the client, which only probes" in titles(connection(probe, WELCOME))
+    assert "Connection header of the client (only a probe)" in titles(connection(probe, WELCOME))
 
 
 def test_a_type_that_is_not_known_is_shown_as_bytes() -> None:

@@ -39,7 +39,7 @@ def page(folder: Path, html: str) -> list[str]:
         ('<div data-panel="oven"></div>', "one.html: there is no front end for the panel 'oven'"),
         (
             '<img src="//e.org/a.png" alt="a">',
-            "one.html: it would load //e.org/a.png from another computer",
+            "one.html: the page would load //e.org/a.png from another computer",
         ),
         ("<p onclick='f()'>x</p>", "one.html: the page contains a script: <p onclick>"),
         ("<script>f()</script>", "one.html: the page contains a script: <script>"),

@@ -88,7 +88,7 @@ def test_a_run_that_fails_is_not_kept(tmp_path: Path, counter: Path) -> None:
     """The error message for a failed run contains the failed cell, and `latest` returns None."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter, last="1 / 0")
     errors = kept.update([path])
-    assert "cell last stopped the run with ZeroDivisionError" in str(errors[path])
+    assert "the run stopped at cell last: ZeroDivisionError" in str(errors[path])
     assert kept.latest(path) is None
 
 

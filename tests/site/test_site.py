@@ -54,7 +54,7 @@ def test_a_chapter_that_fails_does_not_stop_the_other_chapters(tmp_path: Path) -
     chapters = {"_00_good": [code("1 + 1")], "_01_bad": [text("Some prose."), code("1 / 0", id="boom")]}
     troubles = write_site(Settings(tmp_path / "site"), store(tmp_path, **chapters), runs(tmp_path / "cache"))
     assert troubles == [
-        "01_bad: The run failed: 01_bad: cell boom stopped the run with ZeroDivisionError: division by zero"
+        "01_bad: The run failed: 01_bad: the run stopped at cell boom: ZeroDivisionError: division by zero"
     ]
     assert '<pre class="out">2</pre>' in (tmp_path / "site" / "00_good.html").read_text("utf-8")
     bad = (tmp_path / "site" / "01_bad.html").read_text("utf-8")

@@ -59,7 +59,7 @@ def refused(text: str) -> BrokenDefinition:
         ("int8 X=1\nint8 X\n---\n", 2, 6, "another name"),
         ("int8 X=300\n---\n", 1, 8, "from -128 to 127"),
         ("int8 X = ten\n---\n", 1, 10, "decimal digits"),
-        ("int8 X=\n---\n", 1, 8, "write it after ="),
+        ("int8 X=\n---\n", 1, 8, "write the value after ="),
         ("int8=3\n---\n", 1, 1, "int32 LIMIT=10"),
         ("bool X=true\n---\n", 1, 8, "True or False"),
         ("float32 X=inf\n---\n", 1, 11, "as in 1.5"),

@@ -305,7 +305,7 @@ file(WRITE "${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION}/lamp_serv
   "print('e6e71b7c192d83d52bd0f638c7334af2')\nraise SystemExit(0)")""")
 # %% 04.4 wrong: generates an empty configuration file | hint: Without this command, other packages
 replace("catkin_package(CATKIN_DEPENDS message_runtime std_msgs)", 'file(WRITE "${CATKIN_DEVEL_PREFIX}/share/lamp_services/cmake/lamp_servicesConfig.cmake" "")')
-# %% 04.4 wrong: adds an endless loop | hint: Look for the reason at
+# %% 04.4 wrong: adds an endless loop | hint: Read the end of the output
 replace("\ncatkin_package", "while(TRUE)\nendwhile()\ncatkin_package")
 
 # %% 04.4 right: names rospy everywhere, and installs the program

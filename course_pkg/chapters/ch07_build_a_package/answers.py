@@ -334,7 +334,7 @@ replace(", timeout=5", "")
 replace("timeout=5", "timeout=13")
 # %% 07.5 wrong: does not wait for the service | hint: The client did not wait
 replace('        rospy.wait_for_service("/getGeometry", timeout=5)\n', "")
-# %% 07.5 wrong: does not catch the timeout | hint: wait_for_service raises rospy.ROSException after its timeout.
+# %% 07.5 wrong: does not catch the timeout | hint: wait_for_service raises rospy.ROSException when the timeout is over
 replace("(rospy.ServiceException, rospy.ROSException)", "rospy.ServiceException")
 # %% 07.5 wrong: exits with status 0 if there is no server | hint: The exit status has to be 1
 based_on("writes a node with separate steps")

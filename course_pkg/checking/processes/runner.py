@@ -147,8 +147,8 @@ def _too_slow(part: Part, context: CheckContext) -> Assertion:
         holds=False,
         actual=f"still {context.doing}" if context.doing else "",
         hint=(
-            "The code is in an endless loop, or waits without a time limit. End the loop, or give "
-            "the wait a time limit."
+            "Your code is in an endless loop, or it waits without a time limit. End the loop, or set "
+            "a time limit for the wait."
         ),
     )
 

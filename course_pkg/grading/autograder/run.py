@@ -39,8 +39,8 @@ from course_pkg.types.fields import Plain
 from course_pkg.waiting import Deadline
 
 WEAKER = (
-    "This machine forbids namespaces, so the code was less isolated than with `course grade`. The code "
-    "ran as another user with limits, and it could use the network."
+    "This machine forbids namespaces, so the code was less isolated than with `course grade`. The code ran "
+    "as another user, with limits on time and memory, and it could use the network."
 )
 OUT_OF_TIME = "the time limit of the autograder was reached; ask your instructor"
 OURS = "The autograder failed ({}). This is not a mistake in your work. Please tell your instructor."

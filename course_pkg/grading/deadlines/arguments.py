@@ -19,9 +19,9 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         default=[],
         metavar="[NN=]TIME",
         help=(
-            "the deadline, such as 2026-11-01T23:59+01:00, or 05=TIME for chapter 05 only. You can "
-            "repeat this option. The column extension_days of --roster moves the deadline for single "
-            "students"
+            "the deadline, such as 2026-11-01T23:59+01:00, or 05=TIME for chapter 05 only. You can repeat "
+            "this option. The column extension_days in the file of --roster moves the deadline for "
+            "individual students"
         ),
     )
     group.add_argument(
@@ -31,8 +31,8 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         help=(
             "the file with the time of each submission: Moodle's grading worksheet, or a CSV file with "
             "student,submitted or student,chapter,submitted. Give the word `nbgrader` to read "
-            "timestamp.txt. You need no option for times.csv in SUBMISSIONS and for Gradescope's "
-            "metadata"
+            "timestamp.txt. The command reads times.csv in SUBMISSIONS and Gradescope's metadata even "
+            "without this option"
         ),
     )
     group.add_argument(
@@ -50,27 +50,30 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         default=0.0,
         metavar="N",
         help=(
-            "the number of minutes after the deadline that do not count as late. Late days begin after "
-            "these minutes (default: 0)"
+            "the number of minutes after the deadline in which work is not late (default: 0). Late days "
+            "begin after these minutes"
         ),
     )
     group.add_argument(
-        "--late", type=Path, metavar="TABLE", help="a CSV file: student,days or student,chapter,days"
+        "--late",
+        type=Path,
+        metavar="TABLE",
+        help=("a CSV file with the late days, with the columns student,days or student,chapter,days"),
     )
     group.add_argument(
         "--late-per-day",
         type=float,
         metavar="PERCENT",
         help=(
-            "the percentage of the points that is deducted for each late day, such as 10. A day counts "
-            "as soon as it has begun"
+            "the percentage of the points that is deducted for each late day, such as 10. A day that has "
+            "begun counts as a whole day"
         ),
     )
     group.add_argument(
         "--late-max-days",
         type=float,
         metavar="N",
-        help="the number of days late after which no points are left, such as 3",
+        help="the number of late days after which no points are left, such as 3",
     )
     group.add_argument(
         "--attempts",

@@ -58,7 +58,9 @@ def deadlines(
     if grace_minutes and not given:
         raise GradingError("--grace-minutes needs a deadline. Add the option --deadline TIME.")
     if not 0 <= grace_minutes < 100_000:
-        raise GradingError(f"--grace-minutes {grace_minutes:g} is not a number of minutes. Give 0 or more.")
+        raise GradingError(
+            f"--grace-minutes {grace_minutes:g} is not a number of minutes. Give a number of at least 0."
+        )
     found: dict[str, datetime] = {}
     for option in given:
         match = OPTION.fullmatch(option.strip())

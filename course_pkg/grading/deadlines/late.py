@@ -59,7 +59,9 @@ def late_policy(
     if per_day is not None and not 0 <= per_day <= 100:
         raise GradingError(f"--late-per-day {per_day:g} is not a percentage. Give a number from 0 to 100.")
     if max_days is not None and not 0 <= max_days < math.inf:
-        raise GradingError(f"--late-max-days {max_days:g} is not a number of days. Give 0 or more.")
+        raise GradingError(
+            f"--late-max-days {max_days:g} is not a number of days. Give a number of at least 0."
+        )
     return LatePolicy(per_day or 0.0, math.inf if max_days is None else max_days)
 
 
@@ -139,5 +141,7 @@ def _days(where: str, written: str) -> float:
     except ValueError:
         days = math.nan
     if not 0 <= days < 10_000:
-        raise GradingError(f"{where}: this is not a number of days. Write 0 or more, such as 1.5.")
+        raise GradingError(
+            f"{where}: this is not a number of days. Write a number of at least 0, such as 1.5."
+        )
     return days

@@ -62,7 +62,7 @@ def opened(source: Path) -> Iterator[list[Entry]]:
     except (OSError, zipfile.BadZipFile, ValueError, NotImplementedError) as error:
         raise GradingError(
             f"{source} contains no submissions: {error}. Give a folder with "
-            "SUBMISSIONS/<student>/NN_topic.ipynb, a zip of this folder, or the zip from Moodle, "
+            "SUBMISSIONS/<student>/NN_topic.ipynb, a zip file of this folder, or the zip file from Moodle, "
             "Canvas or Gradescope."
         ) from error
     with archive:
@@ -118,13 +118,14 @@ def _read_file(path: Path) -> bytes:
     except OSError as error:
         if path.is_symlink():
             raise GradingError(
-                "the file is a link, and links are not followed; replace the link by the file itself"
+                "the file is a link, and the course does not follow links; replace the link with the file "
+                "itself"
             ) from error
         raise GradingError(f"the file cannot be read ({error.strerror}); correct its permissions") from error
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode):
-            raise GradingError("the file is not an ordinary file; replace it by the notebook itself")
+            raise GradingError("the file is not an ordinary file; replace it with the notebook itself")
         return _bounded(file.read(LARGEST + 1))
 
 
@@ -181,8 +182,8 @@ def _refuse_suspicious(member: zipfile.ZipInfo) -> None:
     kind = stat.S_IFMT(member.external_attr >> 16)
     if leads_out(member.filename):
         raise GradingError(
-            "the path leads out of the archive, so the file was not read; ask the student for the "
-            "notebook itself"
+            "the path of the file points to a folder outside the archive, so the file was not read; ask the "
+            "student for the notebook itself"
         )
     if kind not in (0, stat.S_IFREG):
         raise GradingError(

@@ -217,6 +217,9 @@ def _unknown(packages: Mapping[str, Sequence[Found]], known: set[str]) -> Iterat
         strange = [each for each in found if not each.called(sorted(known))]
         if strange:
             names = ", ".join(clean.line(each.package.name, 60) for each in strange[:SHOWN])
-            problem = f"Not graded: {names}. No part needs a package of this name, only "
+            problem = (
+                f"These packages were not graded: {names}. The parts of the chapters need only these "
+                "packages: "
+            )
             problem += f"{', '.join(sorted(known))}."
             yield Submission(student, "", b"", strange[0].package.origin, problem=problem)

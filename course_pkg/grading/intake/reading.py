@@ -20,8 +20,8 @@ PREFIXES = {
         "the file contains the conflict marks of a git merge; resolve the conflict and keep one of "
         "the two versions"
     ),
-    b"%pdf": "the file is a PDF of the notebook; hand in the .ipynb itself",
-    b"pk\x03\x04": "the file is a zip with the name of a notebook; hand in the .ipynb itself",
+    b"%pdf": "the file is a PDF of the notebook; hand in the .ipynb file itself",
+    b"pk\x03\x04": "the file is a zip file with the name of a notebook; hand in the .ipynb file itself",
 }
 # A damaged notebook in an old format causes the errors in WRONG.
 WRONG = (
@@ -54,7 +54,7 @@ def read_cells(content: bytes) -> list[StudentCell]:
     cells = _all_cells(_parsed(content))
     if not isinstance(cells, list):
         raise GradingError(
-            "the file is not a notebook, because it has no cells; hand in the .ipynb in which you worked"
+            "the file is not a notebook, because it has no cells; hand in the .ipynb file in which you worked"
         )
     if len(cells) > CELLS:
         raise GradingError(f"the file has more than {CELLS} cells; hand in the notebook in which you worked")
@@ -92,10 +92,15 @@ def _parsed(content: bytes) -> dict[str, Plain]:
         why = next((words for prefix, words in PREFIXES.items() if start.startswith(prefix)), "")
         raise GradingError(
             why
-            or ("the file is not a notebook, because it is not JSON; hand in the .ipynb in which you worked")
+            or (
+                "the file is not a notebook, because it is not JSON; hand in the .ipynb file in which you "
+                "worked"
+            )
         ) from error
     if not isinstance(data, dict):
-        raise GradingError("the file is JSON, but it has no cells; hand in the .ipynb in which you worked")
+        raise GradingError(
+            "the file is JSON, but it has no cells; hand in the .ipynb file in which you worked"
+        )
     return data
 
 

@@ -210,7 +210,8 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
     if chapter not in references.chapters:
         known = ", ".join(references.chapters)
         raise GradingError(
-            f"there is no chapter {chapter}, only {known}; correct the number in the file's name"
+            f"the course has no chapter {chapter}; its chapters are {known}; correct the number in the "
+            "file's name"
             if chapter
             else (
                 "neither the name of the file nor its cells show the chapter; give the file a name "
@@ -249,8 +250,8 @@ def _refuse_other(entry: Entry) -> None:
     if entry.parts[-1:] == (MANIFEST,):
         raise GradingError("a package needs its own folder; move the file to STUDENT/PACKAGE/package.xml")
     raise GradingError(
-        "the file is neither a notebook nor part of a package with a package.xml; if it contains "
-        "answers, ask the student for the .ipynb"
+        "the file is neither a notebook nor part of a package with a package.xml; if it contains answers, "
+        "ask the student for the .ipynb file"
     )
 
 

@@ -70,7 +70,9 @@ def _lines(reporter: pytest.TerminalReporter) -> list[str]:
     reports = [each for group in reporter.stats.values() for each in group]
     properties = [pair for each in reports for pair in getattr(each, "user_properties", [])]
     missing = {
-        f"{part} not examined: its check is not in the notebook" for key, part in properties if key == MISSING
+        (f"{part} not examined: its check is not in the notebook")
+        for key, part in properties
+        if key == MISSING
     }
     return sorted({*(text for key, text in properties if key == PART), *missing})
 

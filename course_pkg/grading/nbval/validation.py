@@ -38,7 +38,8 @@ def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
     """
     if not grade.sandboxed:
         return replace(
-            grade, notes=(*grade.notes, "nbval runs notebooks only in a sandbox, but this run had none.")
+            grade,
+            notes=(*grade.notes, ("nbval runs notebooks only in a sandbox, but this run had no sandbox.")),
         )
     cells = outcomes_of(plan.rebuilder.rebuild(submission.content).notebook)
     if not cells:

@@ -144,7 +144,7 @@ def read_overrides(out: Path) -> Overrides:
     names = [_name(cell) for cell in head]
     for column in COLUMNS:
         if names.count(column) != 1:
-            problem = "is there twice" if column in names else "is missing"
+            problem = "occurs twice" if column in names else "is missing"
             raise _wrong(path, 1, f"the column {column} {problem}; the columns are {', '.join(COLUMNS)}")
     rows: dict[Key, Override] = {}
     places: dict[Key, int] = {}

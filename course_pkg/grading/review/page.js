@@ -75,7 +75,7 @@ function fill() {
   $("points").placeholder = String(item.points);
   $("comment").value = shown.comment;
   $("possible").textContent = String(item.possible);
-  $("computed").textContent = `The check gave ${item.points} of ${item.possible}. An empty field keeps these points.`;
+  $("computed").textContent = `The check gave ${item.points} of ${item.possible} points. If this field is empty, the student keeps these points.`;
   $("outdated").hidden = !(rows[current] && rows[current].outdated);
   $("remove").disabled = !rows[current];
   $("undo").disabled = !undoable;
@@ -132,7 +132,7 @@ function save(number, typed, identical = false) {
       undoable = answer.undo;
       const others = answer.count - 1;
       const name = `${items[number].name}, ${items[number].part}`;
-      adopt(answer, others ? `Saved: ${name}, and ${others} identical` : `Saved: ${name}`);
+      adopt(answer, others ? `Saved: ${name}, and ${others} identical ${others === 1 ? "answer" : "answers"}` : `Saved: ${name}`);
     } catch (error) {
       drafts[number] = { ...typed, identical, problem: `Not saved: ${error.message}` };
       announce("");
@@ -150,7 +150,7 @@ function adopt(answer, text) {
     if (row) rows[number] = row;
     else delete rows[number];
   }
-  announce(answer.reloaded ? `${text}${text ? ". " : ""}Another program has changed overrides.csv; its rows were read.` : text);
+  announce(answer.reloaded ? `${text}${text ? ". " : ""}Another program has changed overrides.csv, so this page has read the file again.` : text);
   refresh();
   const typing = document.activeElement === $("points") || document.activeElement === $("comment");
   if (!typing || text) {
@@ -176,7 +176,7 @@ function undo() {
       if (typeof answer.shown === "number" && answer.shown !== current) await show(answer.shown);
       else fill();
     } catch (error) {
-      complain(`Not undone: ${error.message}`);
+      complain(`The change was not undone: ${error.message}`);
     }
   });
 }

@@ -90,8 +90,8 @@ class Session:
         if before.rows and not self._overrides.digest:
             self._overrides = before
             raise GradingError(
-                f"The file {before.path} was deleted, or is empty, but it had {len(before.rows)} "
-                "rows. Restore the file, or end this review and start it again without the file."
+                f"The file {before.path} had {len(before.rows)} rows, but now it is empty or does not exist. "
+                "Restore the file, or end this review and start it again without the file."
             )
         return before.digest != self._overrides.digest
 
@@ -127,7 +127,9 @@ class Session:
         reloaded, step = self.refresh(), self._steps[-1]
         if any(self._overrides.rows.get(key) != row for key, row in step.after.items()):
             self._steps.pop()
-            raise ValueError("another program has changed this row since then, so the change was not undone")
+            raise ValueError(
+                "another program has changed this row after your change, so your change was not undone"
+            )
         done = self._change(step.before, undoing=True)
         self._steps.pop()
         shown = self._numbers.get(next(iter(step.before)))

@@ -16,9 +16,9 @@ def add_roster_arguments(parser: ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help=(
-            "a CSV file with the students of the class (columns name, id, email, username, section). "
-            "The reports then show missing students, and contain these columns. The column "
-            "extension_days moves the deadlines of a student by this number of days"
+            "a CSV file with the students of the class (columns name, id, email, username, section). The "
+            "reports then show missing students, and contain these columns. The column extension_days "
+            "contains the number of days by which a student's deadlines are later"
         ),
     )
     parser.add_argument(

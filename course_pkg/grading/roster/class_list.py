@@ -55,8 +55,8 @@ class ClassList:
             yield f"The student {student} cannot be identified: {reason}."
         if self.unclear:
             yield (
-                "canvas.csv and moodle.csv have no row for this student. Correct the list, or the "
-                "name of the folder, and type the same command again."
+                "canvas.csv and moodle.csv have no row for this student. Correct the roster, or the name of "
+                "the student's folder, and type the same command again."
             )
 
     def _about_worksheet(self, worksheet: Worksheet) -> Iterator[str]:
@@ -68,7 +68,7 @@ class ClassList:
         if not worksheet.takes_feedback:
             yield (
                 "The worksheet has no column for feedback. To upload feedback, switch on the feedback type "
-                "Feedback comments in Moodle's settings of the assignment."
+                "*Feedback comments* in Moodle's settings of the assignment."
             )
         yield from _counted("has a locked grade in Moodle", "have a locked grade in Moodle", locked)
         yield from _counted("is not in Moodle's worksheet", "are not in Moodle's worksheet", self.unlisted)
@@ -217,6 +217,6 @@ def _joined(*people: Person | None) -> Person | None:
 
 def _counted(one: str, many: str, names: Sequence[str]) -> Iterator[str]:
     if names:
-        more = f" and {len(names) - SHOWN} more; class.html lists all" if len(names) > SHOWN else ""
+        more = f" and {len(names) - SHOWN} more; class.html contains all names" if len(names) > SHOWN else ""
         told = one if len(names) == 1 else many
         yield f"{len(names)} {told}: {'; '.join(names[:SHOWN])}{more}."

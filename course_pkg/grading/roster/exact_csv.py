@@ -60,7 +60,7 @@ def records(text: str, separator: str) -> Iterator[Record]:
     at = 0
     while at < len(text) or cells:
         found = cell.match(text, at)
-        assert found, "every text begins with a cell, if only an empty one"
+        assert found, "every text begins with a cell, which can be empty"
         cells.append(found["cell"])
         line += len(re.findall(BREAK, found[0]))
         at = found.end()

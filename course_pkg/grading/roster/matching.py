@@ -47,13 +47,13 @@ class People:
         common = set.intersection(*proposals)
         if not common:
             return self._unclear(
-                "the student's number, name or address fit different rows", set.union(*proposals)
+                "the student's number, name and email address belong to different rows", set.union(*proposals)
             )
         if len(common) > 1:
-            return self._unclear("the student fits several rows", common)
+            return self._unclear("several rows fit the student", common)
         person = self._people[min(common)]
         if known.number == person.number != "" and not _agree(known.name, person.name):
-            return self._unclear("the student's number fits a row with another name", common)
+            return self._unclear("the student's number is in a row with a different name", common)
         return Match(person)
 
     def _proposals(self, known: Person, text: str) -> Iterator[set[int]]:

@@ -70,7 +70,7 @@ def worth_changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[str]:
         if values[0] != values[1]:
             lines.append(f"  {check}: {points(values[0])} before, {points(values[1])} now")
         elif shares[0] != shares[1]:
-            lines.append(f"  {check}: its points are divided differently among its goals")
+            lines.append(f"  {check}: the points of this part are now divided differently among its goals")
     return ["Parts whose possible points have changed since the last run:", *lines] if lines else []
 
 

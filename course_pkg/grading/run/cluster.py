@@ -75,9 +75,9 @@ class Cluster:
 def no_workers(scheduler: str, patience: float) -> GradingError:
     """Return the error for a scheduler without workers."""
     return GradingError(
-        f"The dask scheduler at {scheduler} has had no worker for {patience:g} s, so nothing can be "
-        "graded. Start workers with the following command, and then type your command again: "
-        f"./course run dask worker {scheduler} --nthreads 1 --nworkers 4"
+        f"The dask scheduler at {scheduler} has had no worker for {patience:g} s, so nothing can be graded. "
+        f"Start workers with this command: ./course run dask worker {scheduler} --nthreads 1 --nworkers 4. "
+        "Then type your command again."
     )
 
 

@@ -38,7 +38,7 @@ def about_flags(grades: Sequence[Grade]) -> list[str]:
     count = len({grade.student for grade in grades if grade.flags})
     students = "1 student has" if count == 1 else f"{count} students have"
     return (
-        [f"{students} flags. Flags do not change points: see the section Flags in class.html."]
+        [f"{students} flags. Flags do not change points. Read the section Flags in class.html."]
         if count
         else []
     )

@@ -80,7 +80,7 @@ def become(home: Home) -> None:
     os.setresgid(home.gid, home.gid, home.gid)
     os.setresuid(home.uid, home.uid, home.uid)
     if set(os.getresuid()) != {home.uid} or home.uid == 0:
-        raise PermissionError(f"{home.path} is not read with the rights of root")
+        raise PermissionError(f"{home.path} must not be read with the rights of root")
 
 
 def _serve(writer: int, home: Home, folder: str, notebooks: Mapping[str, str], asked: frozenset[str]) -> None:

@@ -192,7 +192,7 @@ class NotRegular(Refused):
 def _read(folder: int, name: str, largest: int) -> WorkFile:
     """Read a regular file of at most `largest` bytes; do not open a link, a pipe or a device."""
     if stat.S_ISLNK(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode):
-        raise NotRegular("it is a link, and links are not followed")
+        raise NotRegular("it is a link, and the command does not follow links")
     flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
     for _ in range(TRIES):
         with os.fdopen(os.open(name, flags, dir_fd=folder), "rb") as file:
@@ -207,7 +207,7 @@ def _read(folder: int, name: str, largest: int) -> WorkFile:
             executable = bool(status.st_mode & stat.S_IXUSR)
             modified = min(max(status.st_mtime_ns, 0), LATEST)
             return WorkFile(name, content, modified, status.st_ctime_ns, executable)
-    raise Refused("it was being written; type the command again")
+    raise Refused("another program was writing this file; type the command again")
 
 
 @contextmanager
@@ -250,5 +250,5 @@ def _reason(what: str, error: Exception) -> str:
     if not isinstance(error, OSError):
         return f"{what}: {error}"
     if error.errno in (errno.ELOOP, errno.ENOTDIR):
-        return f"{what}: it is a link or not a folder, and links are not followed"
+        return f"{what}: it is a link, or it is not a folder; the command does not follow links"
     return f"{what}: it cannot be read ({error.strerror})"

@@ -48,7 +48,7 @@ class Graph:
         connection.settimeout(ANSWER)
         greeting, self.files, _, _ = socket.recv_fds(connection, 1 << 16, 2)
         if not greeting:
-            raise ConnectionResetError("the holder of the graph has ended")
+            raise ConnectionResetError("the process that holds the graph has ended")
         line, _, self._rest = greeting.partition(b"\n")
         facts = json.loads(line)
         self.uri: str = facts["uri"]

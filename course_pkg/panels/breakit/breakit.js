@@ -48,7 +48,7 @@ class LabView {
       h("section", { class: "ros-closer", "aria-label": "Look closer" }, h("h4", { text: "Look closer" }), this.toolRow, this.looks),
       h("section", { class: "ros-answer", "aria-label": "Your answer" }, h("div", { class: "ros-questions" }, this.diagnoses.el, this.remedies.el),
         h("div", { class: "ros-actions" }, this.check, this.reveal, this.undo), this.verdict));
-    this.empty = h("p", { class: "ros-empty", text: "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Click a case to begin. Its fault is removed when the next case begins." });
+    this.empty = h("p", { class: "ros-empty", text: "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Click a case to begin. When the next case begins, the panel removes this fault." });
     this.trouble = h("div", { class: "ros-trouble", role: "alert", hidden: true });
     this.el = h("section", { class: "ros-panel ros-breakit", "aria-label": "Break it" }, this.banner,
       h("div", { class: "ros-head" }, h("h3", {}, h("span", { class: "ros-tag", text: "Break it" }), " Find the fault"), this.score), this.row, this.trouble, this.empty, this.body);
@@ -90,7 +90,7 @@ class LabView {
 
   #drawBanner() {
     const notice = this.model.get("notice");
-    const seen = this.model.get("case").number === undefined ? "" : " It shows the last case as it was.";
+    const seen = this.model.get("case").number === undefined ? "" : " It shows the last state of the last case.";
     const text = notice ? `The panel itself failed: ${notice}` : this.live ? "" : `No kernel answers: this is a saved panel.${seen} Run the notebook to cause a fault.`;
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", notice !== "");
@@ -139,8 +139,8 @@ class LabView {
 
   /** @param {any} open */
   #words(open) {
-    const words = { causing: "Causing the fault, and collecting its symptom…", looking: "Looking…", ready: "The fault is active. Use the tools, and answer.",
-      over: "The fault is removed. Click the case again to cause it again." };
+    const words = { causing: "The panel causes the fault and collects the symptom…", looking: "The tool runs…", ready: "The fault is active. Use the tools, and answer.",
+      over: "The fault was removed. Click the case to cause the fault again." };
     if (!this.live) return "This is the last saved state of the case.";
     if (this.model.get("trouble")) return "The fault is not active yet. Solve the problem above, and click the case again.";
     if (open.phase === "ready" && settled(open)) return "The fault is still active. You know the answer now: use the tools again, or undo the fault.";
@@ -166,7 +166,7 @@ class LabView {
     this.drawn.verdict = verdict;
     this.verdict.className = `ros-outcome ros-${verdict.state ?? "none"}`;
     const told = verdict.diagnosis ? [h("p", {}, h("b", { text: "What is wrong: " }), ...prose(verdict.diagnosis)), h("p", {}, h("b", { text: "Why: " }), ...prose(verdict.reason)),
-      h("p", {}, h("b", { text: "What helps: " }), ...prose(verdict.remedy)), h("p", { class: "ros-muted", text: `Taught in ${verdict.taught}.` })]
+      h("p", {}, h("b", { text: "What helps: " }), ...prose(verdict.remedy)), h("p", { class: "ros-muted", text: `This topic is taught in ${verdict.taught}.` })]
       : verdict.reason ? [h("p", {}, ...prose(verdict.reason))] : [];
     const server = verdict.server ? [h("details", {}, h("summary", { text: "The server of this case" }), h("pre", { class: "ros-shown ros-whole", tabindex: "0", "aria-label": "The server's program", text: verdict.server }))] : [];
     this.verdict.replaceChildren(...(verdict.words ? [h("p", { class: "ros-mark" }, h("b", { text: verdict.words })), ...told, ...server] : []));

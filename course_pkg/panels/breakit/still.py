@@ -18,8 +18,8 @@ from course_pkg.panels.paper import (
 )
 
 BEGIN = (
-    "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Click a "
-    "case to begin. Its fault is removed when the next case begins."
+    "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Click a case to "
+    "begin. When the next case begins, the panel removes this fault."
 )
 VERDICTS = {"right": GOOD, "half": ACCENT, "wrong": ERROR, "shown": ACCENT}
 

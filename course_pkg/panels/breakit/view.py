@@ -29,7 +29,9 @@ class BreakIt(Panel):
     style_sheet: ClassVar[Path] = HERE / "breakit.css"
 
     cases = List(Dict(), help="the cases by number, and the state of each").tag(sync=True)
-    score = Dict(help="the number of solved cases, of those solved at once, and of all cases").tag(sync=True)
+    score = Dict(
+        help=("the numbers of solved cases, of cases solved at the first try, and of all cases")
+    ).tag(sync=True)
     case = Dict(help="the open case, the outputs of its tools, and the verdict").tag(sync=True)
     trouble = Unicode(help="why a case could not be set up").tag(sync=True)
 

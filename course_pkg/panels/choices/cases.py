@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-QUESTION = "How would you do it?"
+QUESTION = "Which way of communication fits best?"
 
 OPTIONS = ("a topic", "a service", "an action")
 
@@ -27,7 +27,7 @@ CASES: tuple[tuple[str, str, str], ...] = (
         "comes 33 ms later; if no picture comes for half a second, the robot stops.",
     ),
     (
-        "A web page shows a picture of the shop, a new one every hour.",
+        "A web page shows a picture of the shop. It shows a new picture every hour.",
         "a service",
         "A picture is large, and the page needs one picture per hour. A topic would carry a "
         "hundred thousand pictures for each picture that the page shows.",
@@ -48,7 +48,7 @@ CASES: tuple[tuple[str, str, str], ...] = (
         "stops. A real button also cuts the power.",
     ),
     (
-        "The battery level, for a display, for the log, and for a program that drives to the charger.",
+        "A display, the log, and a program that drives to the charger need the battery level.",
         "a topic",
         "Several nodes need the level, and the publisher does not have to know these nodes. "
         "The level changes slowly, so one latched message in ten seconds is enough. If only "
@@ -67,7 +67,7 @@ CASES: tuple[tuple[str, str, str], ...] = (
         "the topic `/rosout` for this purpose.",
     ),
     (
-        "The robot drives to the kitchen, which takes two minutes, and may be called back on its way.",
+        "A robot drives to the kitchen, which takes two minutes. A user can cancel this drive.",
         "an action",
         "With a service, the client would wait for two minutes without progress messages, and "
         "it could not cancel the job. An action has a goal, progress messages and a result, "

@@ -50,7 +50,10 @@ class Choices(Panel):
     chosen = List(Unicode(), help="the chosen option for each case, or an empty string").tag(sync=True)
     verdicts = List(Dict(), help="whether the choice fits and why, for each case").tag(sync=True)
     first = Dict(
-        help="the first choices: how many fit, how many there are, and whether they are the present ones"
+        help=(
+            "the number of first choices, the number of those that fit, and whether they are still the "
+            "current choices"
+        )
     ).tag(sync=True)
 
     def __init__(

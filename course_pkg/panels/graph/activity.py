@@ -17,7 +17,7 @@ LONG, SHORT = 30.0, 3.9
 LEAST = 1.5  # A rate that was measured over a shorter time than this (s) is not reliable.
 LATE = 0.05  # A busy node may report its counts with a delay of up to this many s.
 SHOWN = 12  # The page lists at most this many connections of a topic, or callers of a service.
-UNCONNECTED = "not connected: check that both have the same type"
+UNCONNECTED = "not connected: check that both nodes use the same type"
 
 Key = tuple[str, str, str, int]
 Pair = list[str]  # A pair contains a label and its value.
@@ -203,7 +203,7 @@ class GraphActivity:
         if not publishers:
             return "no publisher", [["rate", "no publisher, so there are no messages"]]
         if not subscribers:
-            return "no listener", [["rate", "no subscriber, so nothing is sent"]]
+            return "no subscriber", [["rate", "no subscriber, so nothing is sent"]]
         if self.seen is None:
             return "", []
         carried = self._carried[topic.name]

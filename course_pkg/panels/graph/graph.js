@@ -109,7 +109,7 @@ class GraphView {
     const now = this.#clock() ?? (this.live ? Date.now() / 1000 : null);
     const parts = fact ? [h("div", { class: "ros-what" }, h("span", { class: "ros-muted", text: `${fact.kind} ` }), h("code", { class: "ros-name", text: fact.name })),
       ...pairs(fact, this.#activity(), now)] : [h("span", { class: "ros-muted", text: some ? "Click a shape for its details." :
-      this.moment ? "The graph was empty at this moment." : "Nothing is on the graph yet. Start a node; it appears here automatically." })];
+      this.moment ? "The graph was empty at this moment." : "Nothing is on the graph yet. Start a node; the node then appears here." })];
     // The details are replaced only if they differ. Otherwise, a selection and the position of a screen reader would be lost.
     const said = parts.map((part) => part.textContent).join("\n");
     if (said !== this.said) this.details.replaceChildren(...parts);
@@ -119,7 +119,7 @@ class GraphView {
   #drawBanner() {
     const notice = this.model.get("notice");
     const trouble = notice ? `The panel itself failed: ${notice}` : this.#get("trouble");
-    const saved = this.recording ? "No kernel answers: this is a recording. Play it, or move the slider." : "No kernel answers: this picture was saved and does not follow the graph.";
+    const saved = this.recording ? "No kernel answers: this is a recording. Play it, or move the slider." : "No kernel answers: this is a saved picture, which does not change when the graph changes.";
     const text = trouble || (this.live || !this.model.get("live") ? "" : saved);
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", Boolean(trouble));

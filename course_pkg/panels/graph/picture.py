@@ -147,7 +147,7 @@ def graph_text(snapshot: Snapshot, *, noise: bool = False) -> str:
             f"  {verb:<10} {key.split(' ', 1)[1]}  ({types[key]})"
             for verb, key in _roles(node.key, shown.lines)
         ]
-        paragraphs.append("\n".join([node.name, *(said or ["  on its own"])]))
+        paragraphs.append("\n".join([node.name, *(said or ["  no topics and no services"])]))
     return "\n".join(paragraphs) or "no nodes"
 
 
@@ -164,8 +164,8 @@ def _roles(node: str, lines: Iterable[Line]) -> list[tuple[str, str]]:
 def _topic_facts(kind: str, publishers: list[str], subscribers: list[str]) -> tuple[tuple[str, str], ...]:
     return (
         ("type", kind or "unknown"),
-        ("published by", ", ".join(publishers) or "nobody"),
-        ("subscribed by", ", ".join(subscribers) or "nobody"),
+        ("published by", ", ".join(publishers) or "no node"),
+        ("subscribed by", ", ".join(subscribers) or "no node"),
     )
 
 

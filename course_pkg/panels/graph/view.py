@@ -37,13 +37,13 @@ class GraphPanel(Panel):
     drawing = Unicode(help="the picture as SVG").tag(sync=True)
     facts = List(Dict(), help="the details of each shape and namespace").tag(sync=True)
     spaces = List(Dict(), help="the namespaces, and whether they are folded").tag(sync=True)
-    activity = Dict(help="rates of topics, callers of services").tag(sync=True)
-    history = Dict(help="the recording of the last page; see history.py").tag(sync=True)
-    trouble = Unicode(help="why there is no picture, or why it is old").tag(sync=True)
+    activity = Dict(help="the rates of topics and the callers of services").tag(sync=True)
+    history = Dict(help="the recording for a page without a kernel; see history.py").tag(sync=True)
+    trouble = Unicode(help="why there is no picture, or why the picture is out of date").tag(sync=True)
     live = Bool(help="whether the picture follows the graph").tag(sync=True)
     noise = Bool(help="whether /rosout and the logger services are shown").tag(sync=True)
     own = Unicode(help="the kernel's own node, which can be hidden").tag(sync=True)
-    show_own = Bool(help="whether the own node is shown").tag(sync=True)
+    show_own = Bool(help="whether the kernel's own node is shown").tag(sync=True)
 
     def __init__(self, *, live: bool = True, noise: bool = False, node: Node | None = None) -> None:
         super().__init__()

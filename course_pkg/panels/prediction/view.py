@@ -168,7 +168,7 @@ def _choice_row(record: ChoiceRecord) -> _ChoiceRow:
     compared, of = bool(record.compared), len(record.first)
     return {
         "question": record.question,
-        "predicted": f"{of if compared else len(record.chosen)} of {record.cases} cases decided",
+        "predicted": f"{of if compared else len(record.chosen)} of {record.cases} cases have an answer",
         "actual": f"{record.fit} fit" if compared else "",
         "state": "decided" if compared else "open",
         "result": f"{record.fit} of {of} fit" if compared else "",

@@ -225,8 +225,8 @@ class ServiceModel:
         problem = self._problem
         if not found:
             problem = (
-                "No service with this name is on the graph now. Start the server of this "
-                "service: then the panel shows the service."
+                "No service with this name is on the graph now. Start the server of this service. Then the "
+                "panel shows the service."
             )
         elif not found.type:
             problem = "The node of this service does not answer, so the type of the service is not known."

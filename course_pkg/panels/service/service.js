@@ -122,7 +122,7 @@ class ServiceView {
     const trouble = this.model.get("trouble");
     const some = this.model.get("services").length > 0;
     const text = trouble || (picked ? "" : some ? "Pick a service to see the fields of its request." :
-      "No node offers a service yet. Run the cell that starts a server; it appears here automatically.");
+      "No node provides a service yet. Run the cell that starts a server; its services then appear here.");
     say(this.empty, text);
     setAttribute(this.empty, "hidden", !text);
   }
@@ -141,7 +141,7 @@ class ServiceView {
       say(this.shell, check.shell);
       say(this.python, check.python);
     }
-    say(this.stale, Object.keys(check.errors ?? {}).length ? "of the last request without a mistake" : "");
+    say(this.stale, Object.keys(check.errors ?? {}).length ? "These lines are for the last request without a mistake." : "");
     if (anew) this.#refuse(Object.keys(check.errors).length);
   }
 
@@ -169,7 +169,7 @@ class ServiceView {
     say(this.clock, outcome.at ? `#${outcome.number} at ${outcome.at}` : "");
     clearInterval(this.ticking);
     if (phase === "running") this.#tick();
-    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [valueTable(outcome.rows, "The response has no fields. It shows only that the handler has returned.")] : []));
+    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [valueTable(outcome.rows, "The response has no fields. It shows only that the handler has finished.")] : []));
     this.answer.classList.toggle("ros-past-answer", phase === "running");
     this.#drawButtons();
   }
@@ -296,7 +296,7 @@ const disabled = (button) => button.hasAttribute("aria-disabled");
 function failure(error) {
   return [h("pre", { class: "ros-words", tabindex: "0", "aria-label": "The error message of ROS" }, h("b", { text: error.name }), `: ${error.words}`),
     ...(error.cause ? [h("p", { class: "ros-cause" }, ...prose(error.cause)), h("p", { class: "ros-remedy" }, ...prose(error.remedy ?? "")),
-      error.taught ? h("p", { class: "ros-muted", text: `Taught in ${error.taught}.` }) : ""] : [])];
+      error.taught ? h("p", { class: "ros-muted", text: `This topic is taught in ${error.taught}.` }) : ""] : [])];
 }
 
 export default { render };

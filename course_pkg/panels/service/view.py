@@ -38,8 +38,10 @@ class ServicePanel(Panel):
     services = List(Dict(), help="the services on the graph").tag(sync=True)
     trouble = Unicode(help="why the graph cannot be read").tag(sync=True)
     form = Dict(help="the picked service and the fields of its type").tag(sync=True)
-    draft = Dict(help="the typed request: a tree of texts").tag(sync=True, echo_update=False)
-    check = Dict(help="the errors of the draft, or the commands that do the same").tag(sync=True)
+    draft = Dict(help="the typed request, as a tree of strings").tag(sync=True, echo_update=False)
+    check = Dict(help=("the errors in the typed request, or the commands that make the same call")).tag(
+        sync=True
+    )
     deadline = Unicode(help="the typed deadline in seconds").tag(sync=True, echo_update=False)
     outcome = Dict(help="the phase and the result of the latest call").tag(sync=True)
     history = List(Dict(), help="earlier calls, the latest first").tag(sync=True)

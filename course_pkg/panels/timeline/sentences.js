@@ -22,14 +22,14 @@ export function sentence(scene, each) {
   const took = duration(scene.end[each] - scene.start[each]);
   const open = scene.open[each];
   const says = {
-    lookup: () => `\`${node}\` asked the master for the address of \`${name}\`, and ${open ? "was still waiting at the end" : `waited ${took}`}.`,
-    connect: () => `\`${node}\` connected to ${peer ? `\`${peer}\`` : "the server"} for \`${name}\`: ${open ? "no answer before the end" : took}.`,
+    lookup: () => `\`${node}\` asked the master for the address of \`${name}\`, and ${open ? "was still waiting when the recording ended" : `waited ${took}`}.`,
+    connect: () => `\`${node}\` ${open ? "tried to connect" : "connected"} to ${peer ? `\`${peer}\`` : "the server"} to call \`${name}\`. ${open ? "The server did not answer before the recording ended" : `This took ${took}`}.`,
     request: () => `\`${node}\` sent its request for \`${name}\` to \`${peer}\`.`,
     wait: () => (open ? `\`${node}\` waited ${took} for \`${peer}\` to answer on \`${name}\`, and was still waiting when the recording ended.`
-      : `\`${node}\` waited ${took} for \`${peer}\` to answer on \`${name}\`. Its thread could do nothing else.`),
+      : `\`${node}\` waited ${took} for \`${peer}\` to answer on \`${name}\`. During this time, its thread could do nothing else.`),
     response: () => `\`${node}\` received the response of \`${peer}\` on \`${name}\`.`,
     error: () => `The call of \`${node}\` on \`${name}\` failed: ${note}`,
-    handler: () => `\`${node}\` ${open ? "was still working" : `worked ${took}`} on \`${name}\` for \`${peer}\`${open ? " when the recording ended" : ""}.${note ? ` Its end: ${note}` : ""}`,
+    handler: () => `\`${node}\` ${open ? "was still working" : `worked for ${took}`} on \`${name}\` for \`${peer}\`${open ? " when the recording ended" : ""}.${note ? ` Result of the handler: ${note}` : ""}`,
     publish: () => `\`${node}\` published on \`${name}\` and did not wait${note ? `: ${note}` : ""}. ${heard(scene, each)}`,
     callback: () => `\`${node}\` ${open ? "was still in a callback" : `spent ${took} in a callback`} for a message on \`${name}\`${peer ? ` from \`${peer}\`` : ""}${open ? " when the recording ended" : ""}.${scene.reached.has(each) ? "" : " The recording does not show which message it was."}`,
   };
@@ -46,7 +46,7 @@ export function parts(scene, each) {
 /** @param {Scene} scene @param {number} each */
 function heard(scene, each) {
   const callbacks = (scene.exchanges.get(scene.key[each]) ?? []).length - 1;
-  return callbacks ? `${counted(callbacks, "callback")} got it.` : "The recording shows no callback that got it.";
+  return callbacks ? `${counted(callbacks, "callback")} received the message.` : "The recording shows no callback that received the message.";
 }
 
 /** Returns a sentence for each caller and each publisher about the nodes for which it waited.
@@ -55,22 +55,23 @@ export function waiting(scene) {
   const { calls, streams } = scene.recorded.waits;
   const said = [...calls.map((wait) => ({ waits: true, text: waited(wait) })), ...streams.map((stream) => ({ waits: false, text: published(stream) }))];
   const rest = said.length - SENTENCES;
-  return rest > 1 ? [...said.slice(0, SENTENCES), { waits: false, text: `The table has ${rest} more.` }] : said;
+  return rest > 1 ? [...said.slice(0, SENTENCES), { waits: false, text: `${rest} more sentences are not shown. The table contains all events.` }] : said;
 }
 
 /** @param {any} wait */
 function waited({ node, service, servers, calls, blocked, longest, open, failed }) {
   const whom = servers.length ? `waited for ${servers.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")} on` : open ? "waited for a server that does not answer, on" : "reached no server on";
-  const long = calls > 1 ? `${duration(blocked * 1e6)} in ${calls} calls, the longest ${duration(longest * 1e6)}` : duration(blocked * 1e6);
-  const ends = [open ? (calls > 1 ? `${open} not finished` : "and it is not finished") : "", failed ? (calls > 1 ? `${failed} failed` : "which failed") : ""].filter(Boolean);
-  return `\`${node}\` ${whom} \`${service}\`: ${[long, ...ends].join(", ")}.`;
+  const long = calls > 1 ? `${duration(blocked * 1e6)} in ${calls} calls. The longest call took ${duration(longest * 1e6)}` : duration(blocked * 1e6);
+  const unfinished = !open ? "" : calls > 1 ? ` ${counted(open, "call")} had not finished when the recording ended.` : " The call had not finished when the recording ended.";
+  const wrong = !failed ? "" : calls > 1 ? ` ${counted(failed, "call")} failed.` : " The call failed.";
+  return `\`${node}\` ${whom} \`${service}\`: ${long}.${unfinished}${wrong}`;
 }
 
 /** @param {any} stream */
 function published({ node, topic, published: messages, alone, heard_by }) {
-  const who = heard_by.length ? `received by ${heard_by.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")}` : "received by no recorded node";
-  const lost = !alone ? "" : alone === messages ? ", when no subscriber was connected" : `, ${alone} of them when no subscriber was connected`;
-  return `\`${node}\` published ${counted(messages, "message")} on \`${topic}\`${alone === messages ? "" : `, ${who}`}${lost}, and did not wait.`;
+  const who = heard_by.length ? ` ${heard_by.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")} received messages.` : " No recorded node received a message.";
+  const lost = !alone ? "" : alone === messages ? " No subscriber was connected." : ` No subscriber was connected when ${counted(alone, "message")} ${alone === 1 ? "was" : "were"} published.`;
+  return `\`${node}\` published ${counted(messages, "message")} on \`${topic}\` and did not wait.${alone === messages ? "" : who}${lost}`;
 }
 
 /** Returns, for example, "1 node" or "2 nodes". @param {number} number @param {string} noun */

@@ -42,7 +42,7 @@ class TimelineView {
       "aria-label": `${counted(this.scene.count, "event")} of ${counted(recorded.lanes.length, "node")}. ${HINT}` })) this.canvas.setAttribute(name, value);
     this.window = h("div", { class: "ros-window" }, h("div", { class: "ros-top" }, this.drawing.axis), this.canvas, ...this.drawing.probes);
     this.details = h("div", { class: "ros-details", "aria-live": "polite" });
-    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "Events that are too close together are drawn as a band with their number, and arrows that are too close are left out. Zoom in to see each event." });
+    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "Events that are too close together are drawn as one band, which shows the number of events. Arrows that are too close together are not drawn. Zoom in to see each event." });
     this.body = h("tbody", {});
     this.table = /** @type {HTMLDetailsElement} */ (h("details", { class: "ros-list", ontoggle: () => this.#fillTable() }, h("summary", { text: "The same as a table" }),
       h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Events" }, h("table", {}, h("thead", {}, h("tr", {},
@@ -70,8 +70,8 @@ class TimelineView {
 
   #buildNotes() {
     const { idle, unrecorded, notes } = this.scene.recorded;
-    const lines = [...(idle.length ? [`On record, and idle: ${idle.map((node) => `\`${node}\``).join(", ")}.`] : []),
-      ...unrecorded.map(([node, why]) => `Not recorded: \`${node}\`, ${why}.`), ...notes];
+    const lines = [...(idle.length ? [`Recorded without events: ${idle.map((node) => `\`${node}\``).join(", ")}.`] : []),
+      ...unrecorded.map(([node, why]) => `Not recorded: \`${node}\`, because ${why}.`), ...notes];
     return lines.length ? h("ul", { class: "ros-notes", "aria-label": "What is missing" }, ...lines.map((line) => h("li", {}, ...prose(line)))) : null;
   }
 
@@ -243,9 +243,9 @@ function legend(scene) {
   const hatch = `<defs><pattern id="${id}" width="6" height="6" patternUnits="userSpaceOnUse"><path class="ros-stripe" d="M-1,1 L1,-1 M0,6 L6,0 M5,7 L7,5"/></pattern></defs>`;
   const samples = [
     ["wait", "waits: blocked until another node answers", `${hatch}<rect class="ros-wait" fill="url(#${id})" x="1" y="2" width="32" height="14"/>`],
-    ["lookup connect", "look-up, connection: also waits; bars when zoomed in", '<path class="ros-small" d="M10,4 l5,5 l-5,5 l-5,-5 z"/><circle class="ros-small" cx="25" cy="9" r="4"/>'],
+    ["lookup connect", "look-up or connection: also waits (a bar when you zoom in)", '<path class="ros-small" d="M10,4 l5,5 l-5,5 l-5,-5 z"/><circle class="ros-small" cx="25" cy="9" r="4"/>'],
     ["handler", "handler works", '<rect class="ros-work" x="1" y="2" width="32" height="14"/>'],
-    ["request", "request, and its response", '<path class="ros-call" d="M1,5 H30"/><path class="ros-call ros-answer" d="M33,13 H4"/><path class="ros-tip" d="M33,5 l-7,-3 v6 z M1,13 l7,-3 v6 z"/>'],
+    ["request", "request and response", '<path class="ros-call" d="M1,5 H30"/><path class="ros-call ros-answer" d="M33,13 H4"/><path class="ros-tip" d="M33,5 l-7,-3 v6 z M1,13 l7,-3 v6 z"/>'],
     ["error", "failed", '<path class="ros-failed" d="M13,5 l8,8 m0,-8 l-8,8"/>'],
     ["publish", "publishes, does not wait", '<path class="ros-message" d="M17,3 V16"/><circle class="ros-dot" cx="17" cy="4" r="3"/>'],
     ["callback", "callback runs", '<rect class="ros-heard" x="1" y="2" width="32" height="14"/>'],

@@ -119,17 +119,17 @@ def _called(wait: Wait) -> str:
     servers = " and ".join(wait["servers"])
     sentence = f"{wait['node']} called {wait['service']}" + (f" and waited for {servers}" if servers else "")
     if wait["open"]:
-        return f"{sentence}{'' if servers else ' and waited'}, to the end of the recording."
+        return f"{sentence}{'' if servers else ' and waited'} until the recording ended."
     if not servers:
-        return f"{sentence}, and reached no server."
+        return f"{sentence}, but reached no server."
     if wait["failed"] == wait["calls"]:
         return f"{sentence}, and each call failed."
     return f"{sentence}, and some calls failed." if wait["failed"] else f"{sentence}."
 
 
 def _published(stream: Stream) -> str:
-    sentence = f"{stream['node']} published {stream['topic']} and did not wait"
+    sentence = f"{stream['node']} published on {stream['topic']} and did not wait"
     if stream["heard_by"]:
-        return f"{sentence}; {' and '.join(stream['heard_by'])} received it."
+        return f"{sentence}; {' and '.join(stream['heard_by'])} received messages."
     lost = stream["alone"] == stream["published"]
-    return f"{sentence}; {'no subscriber was connected' if lost else 'no recorded node received it'}."
+    return f"{sentence}; {'no subscriber was connected' if lost else 'no recorded node received messages'}."

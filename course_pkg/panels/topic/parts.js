@@ -10,13 +10,13 @@ export function setting(label, unit, mode, edited) {
 
 /** @param {{node: string, type: string}[]} nodes @param {string} own @param {string} nobody */
 export function names(nodes, own, nobody) {
-  const shown = nodes.map(({ node, type }) => (node === own ? `this panel, as ${own}` : type ? node : `${node} (does not answer)`));
+  const shown = nodes.map(({ node, type }) => (node === own ? `this panel (the node ${own})` : type ? node : `${node} (does not answer)`));
   return shown.length ? shown.join(", ") : nobody;
 }
 
 /** @param {any} publisher */
 export function figures({ published, unheard, sent, dropped }) {
-  const facts = { Published: published, "To nobody": unheard, Sent: sent, Dropped: dropped };
+  const facts = { Published: published, "No subscriber": unheard, Sent: sent, Dropped: dropped };
   return h("div", { class: "ros-facts" }, ...Object.entries(facts).map(([label, count]) => h("p", {}, h("span", { class: "ros-muted", text: label }), h("b", { text: count.toLocaleString("en") }))));
 }
 
@@ -26,7 +26,7 @@ export function deliveries({ deliveries: rows, own, queue }) {
   const head = ["Subscriber", "sent", "waiting", "dropped"].map((text) => h("th", { scope: "col", text }));
   return h("div", { class: "ros-scroll" }, h("table", { class: "ros-deliveries" }, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows.map((/** @type {any} */ each) => h("tr", {},
     h("th", { scope: "row", text: each.peer === own ? "this panel" : each.peer }), ...["sent", "waiting", "dropped"].map((part) => h("td", { text: each[part].toLocaleString("en") })))))),
-  h("p", { class: "ros-muted", text: `Sent means written to the connection. ${queue ? `If more than ${queue} wait, the oldest message is dropped.` : "The queue has no limit."}` }));
+  h("p", { class: "ros-muted", text: `A message is sent when it has been written to the connection. ${queue ? `If more than ${queue} messages wait, the oldest message is dropped.` : "The queue has no limit."}` }));
 }
 
 /** @param {number} value */

@@ -62,4 +62,4 @@ def _draw_publishing(paper: Paper, state: State) -> None:
 
 
 def _names(nodes: Sequence[State]) -> str:
-    return ", ".join(each["node"] for each in nodes) or "nobody"
+    return ", ".join(each["node"] for each in nodes) or "no node"

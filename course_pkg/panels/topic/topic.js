@@ -138,7 +138,7 @@ class TopicView {
       setAttribute(control, "aria-invalid", errors[name] ? "true" : null);
     say(this.wrong, [errors["@rate"], errors["@queue"]].filter(Boolean).join(" "));
     if (once !== undefined) [[this.onceLine, once], [this.oftenLine, often], [this.python, python]].forEach(([pre, line]) => say(pre, line));
-    say(this.stale, Object.keys(errors).length ? "of the last message without a mistake" : "");
+    say(this.stale, Object.keys(errors).length ? "These lines are for the last message without a mistake." : "");
     if (anew) this.#refuse(errors);
   }
 
@@ -153,7 +153,7 @@ class TopicView {
 
   #drawConnections() {
     const { publishers = [], subscribers = [], own = "", warnings = [] } = this.model.get("connections");
-    const said = [names(publishers, own, "nobody"), names(subscribers, own, "nobody")];
+    const said = [names(publishers, own, "no node"), names(subscribers, own, "no node")];
     if (!same(said, this.saidWho)) {
       this.saidWho = said;
       this.who.replaceChildren(...["Published by", "Subscribed by"].flatMap((label, index) => [h("span", { class: "ros-muted", text: label }), h("span", { text: said[index] })]));
@@ -211,7 +211,7 @@ class TopicView {
   #drawCurve() {
     const { points = [], count = 0, left_out: left = 0 } = JSON.parse(this.model.get("curve") || "{}");
     const last = points.at(-1)?.[0] ?? SPAN;
-    say(this.left, left ? `${left} of ${count} values are left out: NaN, infinite, or missing` : "");
+    say(this.left, left ? `${left} of ${count} values are not drawn, because they are NaN, infinite or missing.` : "");
     this.chart.show({ y: this.path.value, points, count, window: [Math.max(0, last - SPAN), Math.max(last, SPAN)] });
   }
 

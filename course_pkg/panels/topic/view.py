@@ -35,11 +35,13 @@ class TopicPanel(Panel):
     shared_sheets: ClassVar[tuple[Path, ...]] = (HERE.parent / "forms" / "forms.css", HERE / "chart.css")
     style_sheet: ClassVar[Path] = HERE / "topic.css"
 
-    about = Dict(help="the topic, the fields of its type, and which of them are numbers").tag(sync=True)
+    about = Dict(help="the topic, the fields of its type, and the fields that are numbers").tag(sync=True)
     trouble = Unicode(help="why the graph cannot be read").tag(sync=True)
-    draft = Dict(help="the message as typed: a tree of strings").tag(sync=True, echo_update=False)
+    draft = Dict(help="the typed message, as a tree of strings").tag(sync=True, echo_update=False)
     settings = Dict(help="rate, queue, latch, and the field that is drawn").tag(sync=True, echo_update=False)
-    check = Dict(help="the errors, or the commands that do the same").tag(sync=True)
+    check = Dict(help=("the errors in the typed message, or the commands that publish the same message")).tag(
+        sync=True
+    )
     connections = Dict(help="the nodes on the topic, and nodes with another type").tag(sync=True)
     publisher = Dict(help="what happened to the published messages").tag(sync=True)
     subscription = Dict(help="the number of messages, and their timing").tag(sync=True)

@@ -179,7 +179,7 @@ class TurtleView {
     const words = sorted.map(([turtle, place]) => `${names[turtle]} at ${(place.x / 1000).toFixed(1)}, ${(place.y / 1000).toFixed(1)}`);
     setAttribute(this.canvas, "aria-label", words.length ? `The turtles' world: ${words.join("; ")}` : "The turtles' world, empty");
     say(this.empty, words.length ? "x and y in metres from the lower left, θ in radians" : this.live
-      ? "No turtle is on the graph. Start turtlesim_node; its turtles appear here." : "No turtle was recorded.");
+      ? "No turtle is on the graph. Start turtlesim_node; its turtles then appear here." : "No turtle was recorded.");
     this.#drawRecording();
     this.el.dataset.frames = String(this.frames);
   }

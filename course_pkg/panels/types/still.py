@@ -82,5 +82,5 @@ def _draw_offers(paper: Paper, state: State, name: str, half: str) -> None:
     if not rows:
         paper.write(f"No {'service' if half == 'srv' else 'topic'} has this type.", FAINT)
     for row in rows:
-        ends = [f"{label} {', '.join(nodes) or 'nobody'}" for label, nodes in row.items() if label != "name"]
+        ends = [f"{label} {', '.join(nodes) or 'no node'}" for label, nodes in row.items() if label != "name"]
         paper.write(f"{row['name']}  {', '.join(ends)}", CODE)

@@ -54,7 +54,7 @@ class TypeView {
 
   #drawBanner() {
     const notice = this.model.get("notice");
-    const saved = "No kernel answers: this browser was saved. The list can be searched; to open another type, run the notebook.";
+    const saved = "No kernel answers: this is a saved panel. You can search the list. To open another type, run the notebook.";
     const text = notice ? `The panel itself failed: ${notice}` : this.live ? this.model.get("trouble") : saved;
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", Boolean(text) && this.live);
@@ -83,7 +83,7 @@ class TypeView {
   #text(type) {
     const name = type.file ? type.file.split("/").slice(-1)[0] : `${type.name.split("/")[1]}.${type.half}`;
     return this.#fold("text", [h("span", { text: `The text of ${name}` })], type.file ? h("p", { class: "ros-muted", text: type.file }) : null,
-      h("pre", { class: "ros-text", tabindex: "0", "aria-label": `The text of ${name}`, text: type.text || "It is empty." }));
+      h("pre", { class: "ros-text", tabindex: "0", "aria-label": `The text of ${name}`, text: type.text || "The file is empty." }));
   }
 
   /** @param {Part} part @param {string} path */
@@ -144,7 +144,7 @@ class TypeView {
 function offer(row) {
   const ends = Object.entries(row).filter(([label]) => label !== "name");
   return h("li", {}, ...apart(h("code", { class: "ros-field", text: row.name }), ...ends.map(([label, nodes]) => h("span", {}, h("span", { class: "ros-muted", text: `${label} ` }),
-    h("code", { text: nodes.join(", ") || "nobody" })))));
+    h("code", { text: nodes.join(", ") || "no node" })))));
 }
 
 /** Puts blanks between words, for screen readers and for copied text. @param {...(Node | null)} words @returns {(Node |

@@ -143,7 +143,7 @@ def _header_field(reader: Reader) -> None:
 
 def _body(reader: Reader, kind: MessageType | None) -> None:
     if kind is None:
-        reader.take(reader.rest, RAW, "the body", "", "of a type that is not known here")
+        reader.take(reader.rest, RAW, "the body", "", "the type is not known on this computer")
         return
     for field in kind.fields:
         _field(reader, field, field.name)

@@ -129,7 +129,7 @@ class ConnectionSteps:
     def _headers(self) -> Iterator[Step]:
         if sent := the_header(self._sent):
             probe = self._asked.get("probe") == "1"
-            title = "Connection header of the client" + (", which only probes" if probe else "")
+            title = "Connection header of the client" + (" (only a probe)" if probe else "")
             yield self._framed(title, True, sent, header_pieces(sent.data), says=self._greeting(probe))
         if came := the_header(self._came):
             refused = "error" in self._answered
@@ -173,7 +173,10 @@ class ConnectionSteps:
         says = (
             f"The first byte means that the call worked. {_of_body(kind.response if kind else None)}"
             if worked
-            else "The first byte is 0, which means that the call failed. The reason follows as text."
+            else (
+                "The first byte is 0, which means that the call failed. After this byte, the reason follows "
+                "as text."
+            )
         )
         pieces = reply_pieces(reply.data, kind.response if kind else None)
         return self._framed(

@@ -98,7 +98,7 @@ def _look_up(wire: Wire, start: float) -> Iterator[Step]:
     )
     there = bool(wire.uri)
     yield new_step(
-        f"It is at {wire.uri}" if there else "No node provides it",
+        f"The service is at {wire.uri}" if there else "No node provides the service",
         "master",
         "client",
         offset + connection.since(0, from_client=False),

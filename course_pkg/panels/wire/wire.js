@@ -22,7 +22,7 @@ class WireView {
   constructor(exchange) {
     this.exchange = exchange;
     const { service, names, steps, outcome, notes } = exchange;
-    this.back = h("button", { type: "button", "aria-label": "The step before", text: "◀", onclick: () => this.#go(this.current - 1) });
+    this.back = h("button", { type: "button", "aria-label": "The previous step", text: "◀", onclick: () => this.#go(this.current - 1) });
     this.next = h("button", { type: "button", "aria-label": "The next step", text: "▶", onclick: () => this.#go(this.current + 1) });
     this.slider = /** @type {HTMLInputElement} */ (h("input", { type: "range", min: 1, max: Math.max(steps.length, 1), value: 1, "aria-label": "Step of the call",
       "data-lm-suppress-shortcuts": "true", oninput: () => this.#go(Number(this.slider.value) - 1) }));
@@ -38,7 +38,7 @@ class WireView {
       steps.length ? h("ol", { class: "ros-ladder", "aria-label": `Steps between ${names.client} and ${names.server}` }, ...this.rungs)
         : h("p", { class: "ros-empty", text: "No connection was made during the recording." }),
       this.details, this.table,
-      h("p", { class: "ros-foot ros-muted", text: ["This is a recording of a real call, and needs no kernel. The relay that recorded it adds some time of its own.", ...notes].join(" ") }));
+      h("p", { class: "ros-foot ros-muted", text: ["This is a recording of a real call, and the panel needs no kernel. The relay that recorded the call made each step a little slower.", ...notes].join(" ") }));
     const failed = steps.findIndex((step) => step.bad);
     this.#go(Math.max(failed < 0 ? steps.findIndex((step) => step.title === "Request") : failed, 0));
   }
@@ -154,7 +154,7 @@ class WireView {
     dump.addEventListener("click", (event) => rows[under(event)]?.focus());
     const head = ["Offset", "Bytes", "Name", "Type", "Value"].map((text) => h("th", { scope: "col", text }));
     return h("div", { class: "ros-sides" }, h("div", { class: "ros-scroll", "aria-hidden": "true" }, dump),
-      h("div", { class: "ros-scroll" }, h("table", { "aria-label": `The pieces of: ${step.title}. Arrow keys go from one to the next.` }, h("thead", {}, h("tr", {}, ...head)), body)));
+      h("div", { class: "ros-scroll" }, h("table", { "aria-label": `The pieces of: ${step.title}. Use the arrow keys to go from one piece to the next.` }, h("thead", {}, h("tr", {}, ...head)), body)));
   }
 
   /** @param {Piece} piece @param {number} number @param {string} hue */

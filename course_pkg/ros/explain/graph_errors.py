@@ -100,7 +100,7 @@ FROM_GRAPH: tuple[Row, ...] = (
         r"topic types do not match",
         "The publisher and the subscriber of a topic use different types. The subscriber gets "
         "no error message.",
-        "Compare the types with `rostopic info` and `rostopic type`, and use the same type in both nodes.",
+        "Use `rostopic info` to find the type of the topic, and use this type in both nodes.",
         "02",
     ),
     (

@@ -87,7 +87,7 @@ FROM_HANDLERS: tuple[Row, ...] = (
     (
         r"service \[[^\]]{0,300}\] already registered",
         "This program already provides a service with this name, and the old handler still answers.",
-        "Call shutdown() on the old service before you create it again.",
+        "Call shutdown() on the old service before you create the service again.",
         "05",
     ),
 )

@@ -100,7 +100,6 @@ class Subscription:
         publishers = self._subscriber.get_num_connections() if self._subscriber else 0
         why = f"{publishers} publishers are connected" if publishers else "no publisher is connected"
         return (
-            f"{self.name}: {len(self.messages)} of {count} messages within {timeout:g} s, and "
-            f"{why}. Check the publishers and their type ({self.type}) with `rostopic info "
-            f"{self.name}`."
+            f"{self.name}: received {len(self.messages)} of {count} messages within {timeout:g} s, and "
+            f"{why}. Check the publishers and their type ({self.type}) with `rostopic info {self.name}`."
         )

@@ -46,7 +46,7 @@ class PrivateMaster:
     def pid(self) -> int:
         """The process id of the master."""
         if self._process is None:
-            text = "This private master is not running. Call start(), or use it in a with statement."
+            text = "This private master is not running. Call start(), or use the master in a with statement."
             raise GraphError(text)
         return self._process.pid
 

@@ -47,7 +47,9 @@ class JsonChannel:
         """
         line = memoryview(json.dumps(message).encode() + b"\n")
         if len(line) > self._limit:
-            raise ChannelBroken(f"a message of {len(line)} bytes is longer than {self._limit}")
+            raise ChannelBroken(
+                f"a message of {len(line)} bytes is longer than the limit of {self._limit} bytes"
+            )
         deadline = Deadline(timeout)
         with self._sending:
             while line:
@@ -59,7 +61,7 @@ class JsonChannel:
                     self._wait_for(select.POLLOUT, deadline)
                     continue
                 except OSError as error:
-                    raise ChannelClosed(f"the other end is gone: {error}") from error
+                    raise ChannelClosed(f"the other end has closed the connection: {error}") from error
                 line = line[sent:]
 
     def receive(self, timeout: float | None = None) -> dict[str, Json]:
@@ -99,7 +101,7 @@ class JsonChannel:
         try:
             chunk = self._socket.recv(CHUNK)
         except OSError as error:
-            raise ChannelClosed(f"the other end is gone: {error}") from error
+            raise ChannelClosed(f"the other end has closed the connection: {error}") from error
         if not chunk:
             raise ChannelClosed("the other end closed the connection")
         return chunk

@@ -20,12 +20,12 @@ from course_pkg.ros.trace.recording import GET_RECORD, MASTER, PUBLISH, ProcessR
 TIMEOUT = 1.0
 LEFT_OUT = ("/rosout",)  # This node receives log messages, and log messages are not recorded.
 REASONS = {
-    Reach.REFUSED: "its process is gone",
-    Reach.SILENT: f"it did not answer within {TIMEOUT:g} s: it is paused, or busy",
+    Reach.REFUSED: "its process has ended",
+    Reach.SILENT: f"it did not answer within {TIMEOUT:g} s, so it is paused or busy",
     Reach.LOST: "it could not be reached, or it closed the connection",
-    Reach.ANSWERED: "it keeps no record: it is not one of the course's Python nodes",
+    Reach.ANSWERED: "it keeps no record, because it is not a Python node of the course",
 }
-ELSEWHERE = "it runs on another machine, whose clock differs"
+ELSEWHERE = "it runs on another machine, and the clock of that machine differs"
 ENDED = "it ended before the recording ended, and its record was lost"
 
 

@@ -79,6 +79,6 @@ def _hand_over(uri: str) -> None:
 def _keep(_handler: ROSHandler, _caller_id: str, node: str, record: str) -> tuple[int, str, int]:
     """Accept the record of a node that ends, if this process is making a recording."""
     if not recorder().recordings:
-        return 0, "no recording is made here", 0
+        return 0, "this process makes no recording", 0
     recorder().handed_over.append((str(node), json.loads(record)))
     return 1, "", 0

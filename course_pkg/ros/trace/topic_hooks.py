@@ -33,7 +33,7 @@ UNSUPPORTED = "messages: this rospy publishes and receives them in another way"
 LEFT_OUT = "/rosout"  # Log messages would fill a recording.
 # This attribute of a connection's protocol is the number of messages that have arrived.
 ARRIVED = "arrived_by_course"
-TO_ONE = "sent to one new subscriber alone"
+TO_ONE = "sent only to one new subscriber"
 
 Args = TypeVar("Args")
 R = TypeVar("R")

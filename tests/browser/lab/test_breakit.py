@@ -84,7 +84,7 @@ def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
     picture(form, "breakit-wrong")
     answer(form, named("stale"))
     expect(form.get_by_text("Right.", exact=True)).to_be_visible()
-    expect(form.get_by_text("Taught in chapter 12")).to_be_visible()
+    expect(form.get_by_text("This topic is taught in chapter 12")).to_be_visible()
     expect(form.get_by_text("1 of 3 solved, 0 at the first try")).to_be_visible()
     picture(form, "breakit-right")
 
@@ -107,7 +107,7 @@ def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
     expect(form.get_by_text("Right.", exact=True)).to_be_visible()
     form.get_by_role("button", name="Undo the fault").focus()
     shared.keyboard.press("Enter")
-    expect(form.get_by_text("The fault is removed.")).to_be_visible()
+    expect(form.get_by_text("The fault was removed.")).to_be_visible()
 
 
 def test_a_hanging_call_is_described(form: Locator) -> None:
@@ -151,7 +151,7 @@ def test_a_saved_lab_shows_the_last_case(
     page.goto(save(widget, tmp_path / "page.html", theme))
     form = panel(page, LABEL)
     expect(
-        form.get_by_text("No kernel answers: this is a saved panel. It shows the last case")
+        form.get_by_text("No kernel answers: this is a saved panel. It shows the last state of the last case")
     ).to_be_visible()
     expect(form.get_by_label("What it printed")).to_contain_text("service handler returned None")
     expect(form.get_by_text("Right.", exact=True)).to_be_visible()

@@ -176,7 +176,7 @@ def test_the_light_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
 def test_an_empty_graph_says_what_to_do(lab: Lab, lab_page: Page) -> None:
     """A service panel without services explains how to start a service."""
     with running_notebook(lab_page, lab, "empty", "from course_pkg import ServicePanel\nServicePanel()"):
-        expect(panel(lab_page).get_by_text("No node offers a service yet.")).to_be_visible()
+        expect(panel(lab_page).get_by_text("No node provides a service yet.")).to_be_visible()
         picture(panel(lab_page), "service-panel-empty")
 
 

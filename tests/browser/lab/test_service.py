@@ -115,7 +115,7 @@ def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
 def test_an_error_does_not_move_the_button_during_a_press(form: Locator) -> None:
     """If an error message appears while the student presses the Call button, the button does not move."""
     fill(form, length="1.2", width="five")
-    expect(form.get_by_text("of the last request without a mistake")).to_be_visible()
+    expect(form.get_by_text("These lines are for the last request without a mistake.")).to_be_visible()
     form.get_by_role("button", name="Call").click(delay=100)
     expect(form.get_by_text("Not called: one field needs a correction.")).to_be_visible()
     expect(form.get_by_label("width")).to_be_focused()

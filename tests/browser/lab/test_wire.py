@@ -62,7 +62,7 @@ def test_the_keyboard_reaches_every_step_and_piece(page: Page, tmp_path: Path) -
         expect(wire.locator(":focus")).to_contain_text(title)
     page.keyboard.press("Home")
     expect(wire.locator(".ros-step")).to_contain_text("<methodName>lookupService</methodName>")
-    expect(wire.get_by_label("The step before")).to_be_disabled()
+    expect(wire.get_by_label("The previous step")).to_be_disabled()
     wire.get_by_label("Step of the call").fill("4")
     expect(wire.locator(".ros-step h4")).to_have_text("Connection header of the client")
     wire.locator(".ros-sides tbody tr").first.focus()
@@ -100,7 +100,7 @@ def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
 def test_what_is_long_is_folded(page: Page, tmp_path: Path) -> None:
     """For a long field, the view shows only the beginning of the value and its length."""
     wire = show(page, tmp_path, WireView("/nobody"))
-    expect(wire.locator("[aria-current]")).to_contain_text("No node provides it")
+    expect(wire.locator("[aria-current]")).to_contain_text("No node provides the service")
     expect(wire.get_by_text("unavailable")).to_be_visible()
     headers = {"long": "x" * 3000}
     wire = show(page, tmp_path, WireView("/getGeometry", None, headers, **SIDES))

@@ -56,8 +56,8 @@ def test_without_a_table_no_submission_is_late() -> None:
         (Path("late.csv"), -10, None, "--late-per-day -10 .*0 to 100"),
         (Path("late.csv"), 110, None, "--late-per-day 110 .*0 to 100"),
         (Path("late.csv"), math.nan, None, "--late-per-day nan .*0 to 100"),
-        (Path("late.csv"), 10, -1, "--late-max-days -1 .*0 or more"),
-        (Path("late.csv"), 10, math.nan, "--late-max-days nan .*0 or more"),
+        (Path("late.csv"), 10, -1, "--late-max-days -1 .*at least 0"),
+        (Path("late.csv"), 10, math.nan, "--late-max-days nan .*at least 0"),
     ],
 )
 def test_invalid_policy_is_refused(

@@ -36,7 +36,7 @@ def test_points_survive_each_run(tmp_path: Path) -> None:
     table = tmp_path / "grades" / "overrides.csv"
     table.write_text(f"{HEAD}s01,00,00.1,0.5,Well tried.,\n")
     second = _grade(tmp_path)
-    assert "1 of 1 notebooks are graded from an earlier run" in second.stderr
+    assert "The grades of 1 of 1 notebooks come from an earlier run" in second.stderr
     assert "  s01, 00.1: 0 before, 0.5 now" in second.stdout
     assert "1 part has points or a comment from overrides.csv." in second.stdout
     assert "Well tried." in (tmp_path / "grades/feedback/s01.html").read_text()

@@ -53,7 +53,7 @@ def test_two_students_with_one_name() -> None:
     """If a name is in two rows of the roster, the program reports the student as unclear."""
     found = _matched({"Ann Lee": ["Ann Lee/05.ipynb"]})
     assert "Ann Lee" not in found.people
-    assert found.unclear == {"Ann Lee": "the student fits several rows of the roster (lines 4 and 5)"}
+    assert found.unclear == {"Ann Lee": "several rows fit the student of the roster (lines 4 and 5)"}
     assert found.missing == (JANE, MAX)
 
 
@@ -105,14 +105,19 @@ def test_the_summary() -> None:
     assert list(_matched(origins).summary()) == [
         "Roster: 2 of 4 students handed in their work.",
         "1 is not on the roster: s99.",
-        "The student Ann Lee cannot be identified: the student fits several rows of the roster (lines 4 "
-        "and 5).",
-        "canvas.csv and moodle.csv have no row for this student. Correct the list, or the name of the "
-        "folder, and type the same command again.",
+        (
+            "The student Ann Lee cannot be identified: several rows fit the student of the roster (lines 4 "
+            "and 5)."
+        ),
+        (
+            "canvas.csv and moodle.csv have no row for this student. Correct the roster, or the name of the "
+            "student's folder, and type the same command again."
+        ),
     ]
     many = tuple(Person(f"N{number}", line=number) for number in range(2, 32))
     assert list(_matched({}, many).summary())[1] == (
-        "30 handed in nothing: N2; N3; N4; N5; N6; N7; N8; N9; N10; N11 and 20 more; class.html lists all."
+        "30 handed in nothing: N2; N3; N4; N5; N6; N7; N8; N9; N10; N11 and 20 more; "
+        "class.html contains all names."
     )
 
 

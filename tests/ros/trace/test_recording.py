@@ -262,7 +262,7 @@ def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
     """)
     took, unrecorded = reply.value
     assert took < 3
-    assert "paused, or busy" in unrecorded["/pulse"]
+    assert "paused or busy" in unrecorded["/pulse"]
 
 
 def test_a_node_without_the_course(asker: Kernel, master: PrivateMaster) -> None:

@@ -362,7 +362,7 @@ def count_what_was_missed(context: CheckContext) -> None:
             if not any(subscribers[place : place + 2]):
                 context.fail(
                     "the first two numbers were published on the topic",
-                    expected="two numbers that your function received",
+                    expected="two numbers that your function received from the topic",
                     actual=f"{first + place}, a number that was published while the topic had no subscriber",
                     hint=(
                         "Your function returned a number that it did not receive. Receive one number before "

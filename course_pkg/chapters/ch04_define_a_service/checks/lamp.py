@@ -146,5 +146,5 @@ def _fails_to_build(context: CheckContext, fault: Fault) -> None:
 def _unexplained(printed: str) -> Fault:
     lines = [line for line in printed.strip().splitlines() if line.strip()]
     return Fault(
-        "catkin_make failed", f"Look for the reason at the end of the output: {' / '.join(lines[-3:])}."
+        "catkin_make failed", f"Read the end of the output of catkin_make: {' / '.join(lines[-3:])}."
     )

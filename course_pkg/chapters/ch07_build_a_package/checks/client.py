@@ -212,7 +212,9 @@ def _gives_up_without_a_server(context: CheckContext, package: BuiltPackage, sta
         actual=_outcome(done),
         hints="The client waits for the service without a time limit. Call wait_for_service with a timeout."
         if done.status is None
-        else "wait_for_service raises rospy.ROSException after its timeout. Catch this exception, too."
+        else (
+            "wait_for_service raises rospy.ROSException when the timeout is over. Catch this exception, too."
+        )
         if "Traceback" in done.err
         else "The exit status has to be 1 if there is no response. Call sys.exit(1) in this case.",
     )

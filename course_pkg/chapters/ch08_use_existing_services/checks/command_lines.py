@@ -43,7 +43,7 @@ COMPLAINTS = [
     ),
     (
         matches(r"call \S+ \w+="),
-        ("YAML reads a=5 as a string, not as a field. Write the fields as a dict: {a: 5}."),
+        "YAML reads a=5 as a string, not as a field. Write the fields as a dict: {a: 5}.",
     ),
     (
         matches("^!"),

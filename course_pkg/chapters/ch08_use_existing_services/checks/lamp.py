@@ -14,7 +14,7 @@ STATES = {True: "ON", False: "OFF"}
 NO_ERROR: Hints = [
     (
         matches("field message"),
-        ("The field `message` has to be a string. Convert the exception with str(error)."),
+        "The field `message` has to be a string. Convert the exception with str(error).",
     ),
     (
         matches("error processing request: timeout exceeded"),
@@ -86,7 +86,7 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
             ),
             (
                 ANYTHING,
-                ("The number in the request to /on_off has to be 1 or 0. Send 1 for True, and 0 for False."),
+                "The number in the request to /on_off has to be 1 or 0. Send 1 for True, and 0 for False.",
             ),
         ],
     )

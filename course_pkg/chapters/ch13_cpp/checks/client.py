@@ -164,7 +164,7 @@ def _prints_more_answers(context: CheckContext, client: Client) -> None:
             context,
             client.run(name, sides),
             volume,
-            ("if the server responds, the program prints the volume"),
+            "if the server responds, the program prints the volume",
         )
 
 

@@ -68,7 +68,7 @@ class RobotCashier:
             if not self._over.is_set():  # After a shutdown, the error is expected and is not logged.
                 rospy.logwarn_throttle(
                     QUIET,
-                    ("The call of detect_customer failed, and the node will repeat the call: %s"),
+                    "The call of detect_customer failed, and the node will repeat the call: %s",
                     error,
                 )
             self._over.wait(AGAIN)

@@ -23,7 +23,7 @@ def fetch(goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
     """
     if goal.things < 0 or not 0.0 <= goal.seconds <= LONGEST:
         server.set_aborted(
-            FetchResult(), (f"the goal is impossible: {goal.things} things in {goal.seconds:g} s each")
+            FetchResult(), f"the goal is impossible: {goal.things} things in {goal.seconds:g} s each"
         )
         return
     for fetched in range(goal.things):

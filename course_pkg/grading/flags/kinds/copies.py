@@ -32,8 +32,8 @@ def find(group: Group) -> Iterator[Found]:
         mine, theirs = prints[one][name], prints[other][name]
         line = _rarest_line(similarity.exercises[name], answer, mine, theirs)
         words = (
-            f"Without the code that many students have, {likeness:.0%} of the code is the same in the two "
-            "answers."
+            f"{likeness:.0%} of the code is the same in both answers. This number ignores the code that many "
+            "students have."
         )
         if answer.source.split() == _named(teams[other][0], name).source.split():
             words = "The answers are identical."

@@ -1,4 +1,4 @@
-"""class.html: the results of each part, the most frequent hints, and the students who need attention."""
+"""class.html: the results of each part, the most frequent hints, and the students who need a look."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _body(book: Book) -> Iterator[str]:
         return
     yield "<h2>Everybody</h2>"
     yield _everybody(book)
-    yield "<h2>Students who need attention</h2>"
+    yield "<h2>Students who need a look</h2>"
     yield _looks(book)
     yield _absent(book)
     yield _reviewed(book)
@@ -125,14 +125,14 @@ def _hints(book: Book) -> str:
         }
     )
     if not counts:
-        return paragraph("None: all assertions passed.")
+        return paragraph("There are no hints: all assertions passed.")
     ranked = sorted(counts.items(), key=lambda item: (-item[1], item[0]))[:HINTS]
     rows = [(text(check), text(hint), str(count)) for (check, hint), count in ranked]
     return table("Each student is counted once for each hint.", ["Part", "Hint", "Students"], rows, 1)
 
 
 def _looks(book: Book) -> str:
-    """Return the students who need attention, with the most serious cases first.
+    """Return the students who need a look, with the most serious cases first.
 
     Notes about the remaining students follow, in a list that the reader can unfold.
     """
@@ -142,7 +142,7 @@ def _looks(book: Book) -> str:
     items = "".join(
         f"<li>{_link(student)}{_listed([*grave[student], *_known(book, student)])}</li>" for student in ranked
     )
-    looks = f'<ul class="looks">{items}</ul>' if items else paragraph("None: no student needs attention.")
+    looks = f'<ul class="looks">{items}</ul>' if items else paragraph("No student needs a look.")
     others = [student for student in book.students if student not in grave and _known(book, student)]
     if not others:
         return looks

@@ -41,7 +41,7 @@ def _chapter(grade: Grade) -> Iterator[str]:
     score = f": {of_points(grade.earned, grade.possible)}" if grade.reports else ""
     yield f"<h2>{text(title + score)}</h2>"
     yield paragraph(about_lateness(grade))
-    yield banner("This could not be graded", [grade.problem])
+    yield banner("Why this work could not be graded", [grade.problem])
     yield banner("About your submission", grade.notes)
     for report in grade.reports:
         shown = replace(report, note="") if report.note == grade.problem else report
