@@ -5,11 +5,11 @@ from collections.abc import Callable
 import rospy
 
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
-from course_pkg.checking.assertions import Condition, Hints
+from course_pkg.checking.assertions import Condition
 from course_pkg.checking.formatting import explained
 from course_pkg.checking.peers.service_calls import TIMEOUT
 from course_pkg.checking.plain_values import Message, Value
-from course_pkg.checking.shared.served_by import require_served_by_notebook
+from course_pkg.checking.shared.served_by import require_served_by_notebook, require_still_served
 from course_pkg.errors import GraphError
 from course_pkg.ros.node.proxy import BoundedProxy
 
@@ -55,7 +55,13 @@ NO_REFUSAL = (
     "It is not an error if the switch already has the wanted position. Return success=False and the "
     "position in the response."
 )
-NOT_OFF: Hints = [
+ALWAYS_TRUE: list[tuple[Condition, str]] = [
+    (
+        lambda actual: actual == {"success": True, "message": "off"},
+        "A new switch is off, so a call with data=False does not move it. Return success=False in this case.",
+    )
+]
+NOT_OFF: list[tuple[Condition, str]] = [
     (
         lambda actual: actual["message"] == "on",
         "A call with data=False switched a new switch on. The field `data` is the wanted position.",
@@ -173,6 +179,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
                 ],
             )
             before = response.message
+    require_still_served(context, "/count", "/reset_count")
     context.prepare(ANOTHER_CLIENT)
     context.expect(
         "after each reset, the messages of the calls are 1, 2, 3",
@@ -249,9 +256,10 @@ def a_switch_that_tells(context: CheckContext) -> None:
                 *MESSAGE,
             ],
         )
-    on = False
+    on, never_false = False, True
     for data in [True, True, False, False, *(context.random.choice([True, False]) for _ in range(6))]:
         response = turn(data=data)
+        never_false = never_false and response.success
         with context.goal(POSITION):
             context.expect(
                 "the message is the position after the call",
@@ -280,9 +288,10 @@ def a_switch_that_tells(context: CheckContext) -> None:
         on = data
     context.fulfilled(POSITION)
     context.fulfilled(MOVED)
+    require_still_served(context, "/switch")
     if not context.has("Switch"):  # The student may use a function as the handler, without a class.
         return
-    for stands, hints in ((False, NOT_OFF), (True, SHARES)):
+    for stands, hints in ((False, [*ALWAYS_TRUE, *NOT_OFF] if never_false else NOT_OFF), (True, SHARES)):
         turn(data=stands)
         new, error, _ = _answer_of_a_new(
             context, "Switch", "handle_switch", "SetBool", NEW_AND_OFF, data=False

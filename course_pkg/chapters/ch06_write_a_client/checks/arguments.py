@@ -47,7 +47,7 @@ def read_the_arguments(context: CheckContext) -> None:
             (
                 None,
                 "The function returned None, although `argv` contains three numbers after the name "
-                "of the program. Note that 1.5 is a number, too.",
+                "of the program. Read only `argv`, and note that 1.5 is a number, too.",
             ),
             (
                 lambda actual: all(isinstance(item, str) for item in actual),
@@ -56,6 +56,11 @@ def read_the_arguments(context: CheckContext) -> None:
             (
                 lambda actual: all(isinstance(item, int) for item in actual),
                 "A side can be a number such as 1.5. Convert each side to float, not to int.",
+            ),
+            (
+                lambda actual: not {*actual} & {*sides},
+                "The function returned numbers that are not in `argv`. Convert the strings in `argv` "
+                "to float, and return these numbers.",
             ),
             (ANYTHING, name_first),
         ],

@@ -21,6 +21,10 @@ def serialised(function, *args):
         response.serialize(data)
     return list(data.getvalue())
 """  # A check receives a message as a dict, but code in the kernel can serialise only a message.
+WRONG_TYPE = (
+    "Your function used a wrong type for this service. In each call, get the class of the "
+    "service's type with get_service_class_by_name."
+)
 ERRORS = [
     (
         matches("'str' object has no attribute '_request_class'"),
@@ -47,11 +51,7 @@ ERRORS = [
         "This service had a different type in an earlier call. Get the class of the type again in each call.",
     ),
     (matches("KeyError: 0"), "The second argument of fill_message_args has to be a list. Write [fields]."),
-    (
-        matches("md5sums do not match"),
-        "Your proxy has the wrong type for this service. In each call, get the class of the "
-        "service's type with get_service_class_by_name.",
-    ),
+    (matches("md5sums do not match"), WRONG_TYPE),
 ]
 UNKNOWN_TYPE = (
     "Your function found no type for this service. Get the class from the server with "
@@ -158,7 +158,8 @@ def _calls(context: CheckContext, example: ExampleCall) -> None:
     server = context.serve(name, example.kind, lambda _: example.answer)
     unfilled = NESTED if "camera_info" in example.fields else FLAT
     no_entry = matches(rf"^KeyError: '(/?{name[1:]}|{example.kind})'")
-    hints = [(no_entry, UNKNOWN_TYPE), *ERRORS, (ANYTHING, unfilled)]
+    wrong_type = matches("No field name|md5sums do not match")
+    hints = [(no_entry, UNKNOWN_TYPE), (wrong_type, WRONG_TYPE), *ERRORS, (ANYTHING, unfilled)]
     returned = context.run("call_any", name, example.fields, hints=hints).returned()
     context.expect(
         "the service is called once", expected=1, actual=len(server.requests), hints=CALLED_WRONGLY
