@@ -201,7 +201,7 @@ def test_log_level_debug_shows_calls_without_effect(switch: NodeProcess) -> None
     done = terminal("rosservice", "call", "/switch/set_logger_level", "rosout", "debug")
     assert done.returncode == 0
     move(True)
-    pattern = r"\[DEBUG\] \[.*\]: A request to move, without effect: already open"
+    pattern = r"\[DEBUG\] \[.*\]: A request to move had no effect: already open"
     eventually(lambda: re.search(pattern, switch.output()))
 
 

@@ -78,7 +78,7 @@ def test_client_without_a_server_or_with_wrong_arguments() -> None:
 def test_echo_sends_back_every_byte(master: PrivateMaster) -> None:
     """The TCP echo stores its port in a parameter, and sends back every byte."""
     with NodeProcess(["rosrun", "course_pkg", "tcp_echo"]) as echo:
-        echo.wait_for_output("Echoing")
+        echo.wait_for_output("The server runs")
         port = eventually(lambda: MasterClient(master.uri).get_param("/tcp_echo/port"))
         with socket.create_connection(("localhost", port), timeout=5) as sock:
             sock.sendall(bytes(range(16)))

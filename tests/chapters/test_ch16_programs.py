@@ -196,5 +196,5 @@ def test_impossible_goal_is_aborted_with_a_message(asking: Kernel, goal: str) ->
         result.append(client.get_state() == GoalStatus.SUCCEEDED)
     """)
     assert aborted
-    assert "no robot fetches" in words
+    assert "the goal is impossible" in words
     assert after

@@ -33,7 +33,7 @@ def services_of(kind):
 
 # %% 08.1 wrong: raises an error for a dead server | hint: Your list contains a service whose server
 replace("names = [] … return names", "return [name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind]")
-# %% 08.1 wrong: stops at a dead server | hint: The search ended at a
+# %% 08.1 wrong: stops at a dead server | hint: Your function stopped at a
 replace("continue", "break")
 # %% 08.1 wrong: decides by the name of the service | hint: Your list contains services of
 replace("names = [] … return names", 'return [name for name in rosservice.get_service_list() if kind.split("/")[1].lower() in name.lower()]')
@@ -41,7 +41,7 @@ replace("names = [] … return names", 'return [name for name in rosservice.get_
 replace(" == kind", '.split("/")[1] == kind.split("/")[1]')
 # %% 08.1 wrong: accepts types that only contain the given type | hint: Your list contains a service with
 replace("names = [] … return names", "return [name for name in rosservice.get_service_list() if kind in rosservice.get_service_type(name)]")
-# %% 08.1 wrong: returns only the first service | hint: and return after the loop
+# %% 08.1 wrong: returns only the first service | hint: Your function found only some
 replace("names.append(name)", "return [name]")
 # %% 08.1 wrong: returns the first service as a string | hint: Your function returned one string.
 replace("names.append(name)", "return name")
@@ -69,7 +69,7 @@ def services_of(kind):
             continue
     return [name for name in types_of if types_of[name] == kind]
 
-# %% 08.1 wrong: returns the names with their nodes | hint: Your list contains more than
+# %% 08.1 wrong: returns the names with their nodes | hint: The entries of your list
 replace("names = [] … return names", """listed = rosservice.get_service_list(include_nodes=True)
     return [[name, nodes] for name, nodes in listed if rosservice.get_service_type(name) == kind]""")
 # %% 08.1 wrong: returns the types instead of the names | hint: Your list contains strings that
@@ -81,7 +81,7 @@ replace("get_service_type", "get_service_class_by_name")
 # %% 08.1 wrong: also returns the service of a dead server | hint: Your list contains a service whose server
 replace("== kind:\n                names.append(name)", "!= kind:\n                continue")
 replace("\n            continue", "\n            pass\n        names.append(name)")
-# %% 08.1 wrong: leaves the loop at a dead server | hint: The search ended at a service
+# %% 08.1 wrong: leaves the loop at a dead server | hint: Your function stopped at a
 replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list())")
 replace("continue", "break")
 # %% 08.1 wrong: returns None if there is no service | hint: Return an empty list
@@ -157,7 +157,7 @@ replace("on_off = rospy … str(error))", 'state = rospy.ServiceProxy("/on_off",
 replace("        state =", '        rospy.wait_for_service("/on_off", timeout=1)\n        state =')
 # %% 08.2 wrong: raises the refusal again | hint: The call of /lamp failed, because
 replace("return SetBoolResponse(success=False, message=str(error))", "raise rospy.ServiceException(str(error))")
-# %% 08.2 wrong: returns the exception as the message | hint: The message has to be
+# %% 08.2 wrong: returns the exception as the message | hint: The field `message` has to
 replace("str(error)", "error")
 # %% 08.2 wrong: returns a fixed message | hint: The message does not contain
 replace("str(error)", '"it does not work"')
@@ -173,9 +173,9 @@ replace("message=state", 'message="ON" if request.data else "OFF"')
 replace('state == ("ON" if request.data else "OFF")', "state is request.data")
 # %% 08.2 wrong: returns a sentence as the message | hint: The message is wrong. Return
 replace("message=state", 'message=f"the lamp is {state}"')
-# %% 08.2 wrong: exchanges the numbers 0 and 1 | hint: The number in the request is
+# %% 08.2 wrong: exchanges the numbers 0 and 1 | hint: The number in the request to /on_off is
 replace("1 if request.data else 0", "0 if request.data else 1")
-# %% 08.2 wrong: sends other numbers than 0 and 1 | hint: The number in the request has
+# %% 08.2 wrong: sends other numbers than 0 and 1 | hint: The number in the request to /on_off has
 replace("1 if request.data else 0", "2 if request.data else 3")
 # %% 08.2 wrong: calls /on_off twice | hint: The handler called /on_off more than once
 replace("state = on_off", "on_off(0)\n        state = on_off")
@@ -261,7 +261,7 @@ replace('answer = rospy … was there"', 'return rospy.ServiceProxy(f"{switch}/s
 # %% 08.3 wrong: returns the field message | hint: Your function returned the message
 based_on("returns the field success")
 replace("success", "message")
-# %% 08.3 wrong: moves in the opposite direction | hint: The request has the wrong
+# %% 08.3 wrong: moves in the opposite direction | hint: The field `data` of the
 replace("SetBool)(to_open)", "SetBool)(not to_open)")
 
 # %% 08.3 wrong: calls toggle | hint: Call only the services `set`
@@ -342,7 +342,7 @@ replace('f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', 'shlex
 replace("shlex.quote(json.dumps(fields))", "json.dumps(fields)")
 # %% 08.4 wrong: writes the values by position | hint: rosservice reads -5 as an
 replace("{shlex.quote(json.dumps(fields))}", "{' '.join(map(str, fields.values()))}")
-# %% 08.4 wrong: writes the values by position after -- | hint: because rosservice uses the order
+# %% 08.4 wrong: writes the values by position after -- | hint: The values are in the wrong fields, because
 based_on("writes the values by position")
 replace("{service} ", "{service} -- ")
 # %% 08.4 wrong: writes the dict as Python shows it | hint: YAML cannot read a dict
@@ -359,7 +359,7 @@ replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', "'rosse
 replace("{shlex.quote(json.dumps(fields))}", "'{json.dumps(fields)}'")
 # %% 08.4 wrong: writes the fields as NAME=VALUE | hint: YAML reads a=5 as a string
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}={value}" for name, value in fields.items())')
-# %% 08.4 wrong: writes the fields as NAME:=VALUE | hint: rosservice does not receive arguments
+# %% 08.4 wrong: writes the fields as NAME:=VALUE | hint: ROS reads an argument with
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}:={value}" for name, value in fields.items())')
 # %% 08.4 wrong: begins the line with !, as in a notebook | hint: The character ! works only in a
 replace("rosservice", "!rosservice")
@@ -400,11 +400,11 @@ import subprocess
 def call_line(service, fields):
     return subprocess.list2cmdline(["rosservice", "call", service, json.dumps(fields)])
 
-# %% 08.4 wrong: creates the fields with another command | hint: A program other than rosservice makes the call.
+# %% 08.4 wrong: creates the fields with another command | hint: A different program calls the
 replace("{shlex.quote(json.dumps(fields))}", '\\"$(echo {shlex.quote(json.dumps(fields))})\\"')
 # %% 08.4 wrong: omits inner dicts | hint: A field in an inner
 replace("json.dumps(fields)", "json.dumps({name: value for name, value in fields.items() if not isinstance(value, dict)})")
-# %% 08.4 wrong: calls the service with a Python program | hint: A program other than rosservice makes the call.
+# %% 08.4 wrong: calls the service with a Python program | hint: A different program calls the
 def call_line(service, fields):
     code = f"import rosservice; rosservice.call_service({service!r}, [{fields!r}])"
     return f"python3 -c {shlex.quote(code)} # rosservice call"
@@ -443,9 +443,9 @@ based_on("passes the fields as keyword arguments")
 replace("get_service_class_by_name", "get_service_type")
 # %% 08.5 wrong: uses a fixed type | hint: Your proxy has the wrong type for this service.
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, SetBool)(**fields)")
-# %% 08.5 wrong: uses a table of types | hint: Your function has no type for
+# %% 08.5 wrong: uses a table of types | hint: Your function found no type
 replace("rosservice.get_service_class_by_name(service)", '{"/switch/set": SetBool}[service]')
-# %% 08.5 wrong: stores the type of each name | hint: This service had another type before
+# %% 08.5 wrong: stores the type of each name | hint: This service had a different
 kinds = {}
 
 def call_any(service, fields):
@@ -459,9 +459,9 @@ def call_any(service, fields):
 replace("cls = rosservice … )(request)", "return rosservice.call_service(service, [fields])[1]")
 # %% 08.5 wrong: forgets to return | hint: without a return line
 replace("return rospy", "rospy")
-# %% 08.5 wrong: returns request and response | hint: The function returned more than
+# %% 08.5 wrong: returns request and response | hint: The function returned a list
 replace("rospy", "request, rospy")
-# %% 08.5 wrong: never fills the request | hint: Fill the request before the call
+# %% 08.5 wrong: never fills the request | hint: All fields of the request
 replace("request = cls … )(request)", "return rospy.ServiceProxy(service, cls)(cls._request_class())")
 # %% 08.5 wrong: ignores unknown fields | hint: The function ignored a field name
 replace("()", "()\n    known = {name: fields[name] for name in request.__slots__ if name in fields}")
@@ -481,7 +481,7 @@ replace("return rospy", "rospy.ServiceProxy(service, cls)(request)\n    return r
 # %% 08.5 wrong: returns one field of the response | hint: The function did not return
 replace("cls)(request)", "cls)(request).message")
 
-# %% 08.5 wrong: passes the request class to rospy.ServiceProxy | hint: rospy.ServiceProxy got the class of the request
+# %% 08.5 wrong: passes the request class to rospy.ServiceProxy | hint: Your function passed the class
 replace("rospy.ServiceProxy(service, cls)", "rospy.ServiceProxy(service, cls._request_class)")
 # %% 08.5 wrong: sends the return value of fill_message_args | hint: Your function sent the return
 replace("    genpy", "    request = genpy")
@@ -530,9 +530,9 @@ replace('"server is gone"', '"not registered"')
 replace('"not registered"', '"server is gone"')
 # %% 08.6 wrong: compares the type with the class | hint: Compare the entry `type` of the headers
 replace('headers["type"] != kind._type', 'headers["type"] != kind')
-# %% 08.6 wrong: reads a header entry that does not exist | hint: The headers have no entry with
+# %% 08.6 wrong: reads a header entry that does not exist | hint: Your function uses a key
 replace('headers["md5sum"]', 'headers["md5"]')
-# %% 08.6 wrong: uses the class on this computer | hint: The type of the server is not on this computer
+# %% 08.6 wrong: uses the class on this computer | hint: The type of the server
 replace("headers = rosservice.get_service_headers(service, uri)", "its = rosservice.get_service_class_by_name(service)")
 replace('headers["type"]', "its._type")
 replace('headers["md5sum"]', "its._md5sum")

@@ -20,7 +20,7 @@ replace("rospy.wait_for_service … return 0", """spawn.wait_for_service(timeout
 replace('rospy.init_node("spawn_turtle")\n    sys.exit(main())', "run()")
 # %% 09.1 wrong: does not wait for the service | hint: The program ended before the service started
 replace('    try:\n        rospy.wait_for_service("spawn", timeout=5)\n', '    try:\n')
-# %% 09.1 wrong: waits without a limit | hint: The program waits too long, or without a limit
+# %% 09.1 wrong: waits without a limit | hint: The program waits too long
 replace(', timeout=5', '')
 # %% 09.1 wrong: waits for only two seconds | hint: The program stopped waiting too early
 replace('timeout=5', 'timeout=2')
@@ -151,7 +151,7 @@ replace("\n    used, rate = frequency, rospy.Rate(frequency)", "")
 replace("if used != … rate.sleep()", "rospy.sleep(1.0 / frequency)")
 # %% 09.3 wrong: resets the direction when the rate changes | hint: A call of /change_rate also changed the direction
 replace("    global frequency\n", "    global frequency, forward\n    forward = True\n")
-# %% 09.3 wrong: does not change the Rate object of the loop | hint: A Rate object cannot change its rate
+# %% 09.3 wrong: does not change the Rate object of the loop | hint: The rate of a Rate
 replace('used != frequency', 'used < 0')
 # %% 09.3 wrong: rounds the rate to a value in a table | hint: The program did not publish at the rate that the client had set
 based_on("sleeps for 1 / rate")
@@ -293,7 +293,7 @@ replace('not math.isfinite(request.speed)', 'request.speed != request.speed or r
 # %% 09.4 wrong: does not stop | hint: The turtle still moves after a call with data=False
 replace('self.moving = request.data\n', 'self.stopped = not request.data\n')
 replace('if request.data == self.moving:', 'if request.data != getattr(self, "stopped", False):')
-# %% 09.4 wrong: resets the direction at each start and stop | hint: and at the speed that were set last
+# %% 09.4 wrong: resets the direction at each start and stop | hint: After data=True, the turtle has to move in
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n')
 # %% 09.4 wrong: ignores a speed that is set while it is stopped | hint: The client called /change_speed while the turtle was stopped
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, request.speed if self.moving else self.speed')
@@ -313,7 +313,7 @@ replace('message=f"already {word}"', 'message=word')
 replace("self.moving = True", "self.moving = self.wanted = True")
 replace("self.moving = request.data", "self.wanted = request.data")
 replace("        publisher.publish(", "        driver.moving = driver.wanted\n        publisher.publish(")
-# %% 09.4 wrong: refuses a call that changes nothing | hint: The node refused a call that asks for the current state
+# %% 09.4 wrong: refuses a call that changes nothing | hint: The node refused a call
 replace('return SetBoolResponse(success=True, message=f"already {word}")', 'raise rospy.ServiceException("already")')
 
 # %% 09.5 right: uses the solution from the chapter
@@ -349,7 +349,7 @@ replace('rospy.init_node("spawn_turtle_plus")\n    sys.exit(main())', "main()")
 replace('        call("toggle_forward", Empty)\n        call("change_speed", ChangeSpeed, 2.0)\n', '        call("change_speed", ChangeSpeed, 2.0)\n        call("toggle_forward", Empty)\n')
 # %% 09.5 wrong: waits only for the first service | hint: The program ended too early, because /toggle_forward starts
 replace('    rospy.wait_for_service(name, timeout=5)\n', '    if name == "spawn":\n        rospy.wait_for_service(name, timeout=5)\n')
-# %% 09.5 wrong: waits for all services before the first call | hint: /toggle_forward starts only after the call of /spawn
+# %% 09.5 wrong: waits for all services before the first call | hint: The service /toggle_forward starts only
 replace("    try:\n", "    try:\n        for service in (\"spawn\", \"toggle_forward\", \"change_speed\"):\n            rospy.wait_for_service(service, timeout=5)\n")
 # %% 09.5 wrong: waits for at most 1 s | hint: The program ended too early, because /toggle_forward starts
 replace("timeout=5", "timeout=1")
@@ -363,7 +363,7 @@ replace('ChangeSpeed, 2.0', 'ChangeSpeed, 10.0')
 replace('    rospy.spin()\n', '')
 # %% 09.5 wrong: uses a fixed name for the topic | hint: Publish only on the topic /NAME/cmd_vel
 replace('f"{name}/cmd_vel"', '"MyTurtle/cmd_vel"')
-# %% 09.5 wrong: follows another turtle | hint: The program gets no velocities of the first turtle
+# %% 09.5 wrong: follows another turtle | hint: The program receives no velocities
 replace('Subscriber("turtle1/cmd_vel"', 'Subscriber("turtle2/cmd_vel"')
 # %% 09.5 wrong: uses a callback that does nothing | hint: The callback publishes nothing
 replace('Twist, publisher.publish)', 'Twist, lambda message: None)')
@@ -399,7 +399,7 @@ replace('        name = call("spawn", Spawn, 3, 3, 0, "MyTurtle").name\n', """  
 """)
 # %% 09.5 wrong: waits without a limit | hint: A service is missing, but the program did not end
 replace('(name, timeout=5)', '(name)')
-# %% 09.5 wrong: exits with status 0 after a failure | hint: If a wait times out or a call is refused, print a
+# %% 09.5 wrong: exits with status 0 after a failure | hint: The program did not report
 replace('        return 1\n', '        return 0\n')
 
 # %% 09.6 right: uses the solution from the chapter
@@ -441,7 +441,7 @@ replace('type="improved_pubvel_toggle.py"', 'if="$(arg addturtle)" type="improve
 replace('default="false"', 'value="false"')
 # %% 09.6 wrong: uses a condition that is never true | hint: With addturtle:=true, a node is missing
 replace('if="$(arg addturtle)"', 'if="false"')
-# %% 09.6 wrong: uses the default value true | hint: spawn_turtle_plus must not start without an argument
+# %% 09.6 wrong: uses the default value true | hint: Without an argument, spawn_turtle_plus must
 replace('default="false"', 'default="true"')
 # %% 09.6 wrong: omits the condition | hint: spawn_turtle_plus also starts with addturtle:=false
 replace('if="$(arg addturtle)" ', '')

@@ -444,7 +444,7 @@ replace("with self. … count - 1)", """self.lock.acquire()
 # %% 10.4 wrong: acquires the lock again while it holds the lock | hint: A client waits forever, because a thread does not release the lock
 replace("Lock()\n", "Lock()\n\n    def left(self):\n        with self.lock:\n            return self.shelf.read()\n")
 replace("= self.shelf.read()", "= self.left()")
-# %% 10.4 wrong: refuses a caller while the lock is taken | hint: Some things were left, but a client got none of them
+# %% 10.4 wrong: refuses a caller while the lock is taken | hint: The shelf was not empty, but a
 replace("with self.lock:", """if not self.lock.acquire(blocking=False):
             return TriggerResponse(success=False, message="busy")
         try:""")
@@ -475,7 +475,7 @@ replace("\n        self.lock = threading.Lock()", "")
 # %% 10.4 wrong: changes an attribute of the shelf | hint: Your code uses a method that a shelf does not have
 replace("self.shelf.read()", "self.shelf.count")
 replace("self.shelf.write(count - 1)", "self.shelf.count -= 1")
-# %% 10.4 wrong: omits success | hint: A thing was there, but `success` has its default value, False
+# %% 10.4 wrong: omits success | hint: The shelf was not empty, but `success`
 replace("success=True, message=str", "message=str")
 # %% 10.4 wrong: omits the message | hint: Set the message to the number of things that are left, as a string
 replace(", message=str(count - 1)", "")
@@ -550,7 +550,7 @@ replace('self.shelf.write(count - … : {error}")', """try:
             except rospy.ServiceException as error:
                 return TriggerResponse(success=False, message=f"not paid: {error}")
             self.shelf.write(count - 1)""")
-# %% 10.5 wrong: holds the lock during the call, and /left waits only briefly | hint: The till had only a few calls at the same time
+# %% 10.5 wrong: holds the lock during the call, and /left waits only briefly | hint: The till received only a
 replace("        with self.lock:\n            return Trigger", "        held = self.lock.acquire(timeout=0.2)\n        number = self.shelf.read()\n        if held:\n            self.lock.release()\n        return Trigger")
 replace('message=str(self.shelf.read())', 'message=str(number)')
 replace('self.shelf.write(count - … : {error}")', """self.shelf.write(count - 1)
@@ -559,7 +559,7 @@ replace('self.shelf.write(count - … : {error}")', """self.shelf.write(count - 
             except rospy.ServiceException as error:
                 self.shelf.write(count)
                 return TriggerResponse(success=False, message=f"not paid: {error}")""")
-# %% 10.5 wrong: holds a semaphore with two permits during the call | hint: The till had only a few calls at the same time
+# %% 10.5 wrong: holds a semaphore with two permits during the call | hint: The till received only a
 replace("    def handle_buy(self, request):", """    permits = threading.BoundedSemaphore(2)
 
     def handle_buy(self, request):
@@ -586,7 +586,7 @@ replace("self.shelf.write(self.shelf.read() - 1)", "self.shelf.write(self.shelf.
 replace("\n            with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "")
 # %% 10.5 wrong: catches no exception | hint: The call of the till failed, and the exception ended your handler
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt")
-# %% 10.5 wrong: puts back the number that it read before | hint: Between a read of the shelf and the write that followed
+# %% 10.5 wrong: puts back the number that it read before | hint: Another thread changed the shelf
 replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "time.sleep(0.2)\n            self.shelf.write(count)")
 # %% 10.5 wrong: waits for the till's service | hint: No server offers the till's service, but the handler waits
 replace("try:", "rospy.wait_for_service(self.till)\n        try:")
@@ -597,7 +597,7 @@ replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n
 # %% 10.5 wrong: uses one id for all payments | hint: Two purchases have the same request_id
 replace("threading.Lock()", "threading.Lock()\n        self.request_id = str(uuid.uuid4())")
 replace("str(uuid.uuid4()),", "self.request_id,")
-# %% 10.5 wrong: takes the ids from a counter | hint: The ids come from a counter, and another program
+# %% 10.5 wrong: takes the ids from a counter | hint: The ids come from a
 replace("str(uuid.uuid4())", "str(next(NUMBERS))")
 replace("class Shop", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\nclass Shop")
 # %% 10.5 wrong: sends no id | hint: The field `request_id` is empty
@@ -775,7 +775,7 @@ solution()
 causes = dict(F="no loop", E="no notify", D="race")
 causes.update(zip("ABC", ["lock across a call", "lock order", "no limit"]))
 
-# %% 10.7 wrong: exchanges A and B | hint: The cause "lock order" means that two threads … Follow the calls from thread to thread
+# %% 10.7 wrong: exchanges A and B | hint: The cause "lock order" means that two threads … There is a circle of
 replace('"A": "lock across a call"', '"A": "lock order"')
 replace('"B": "lock order"', '"B": "lock across a call"')
 # %% 10.7 wrong: gives "lock across a call" instead of "lock order" | hint: The cause "lock across a call" means … Each of the two threads holds the lock of one shelf and

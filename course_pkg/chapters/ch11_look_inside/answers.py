@@ -32,7 +32,7 @@ replace('struct.pack("<I", len(body)) + body', "body")
 # %% 11.1 wrong: counts letters instead of bytes | hint: A length is a number of bytes, and the letter ü has two bytes
 replace('"{name}={value}".encode()', '"{name}={value}"')
 replace("+ text", "+ text.encode()")
-# %% 11.1 wrong: writes name and value as in HTTP | hint: The text between name and value is wrong
+# %% 11.1 wrong: writes name and value as in HTTP | hint: The text between the name
 replace("{name}={value}", "{name}: {value}")
 # %% 11.1 wrong: omits a field with an empty value | hint: A field with an empty value is missing
 replace("        text = f", "        if not value:\n            continue\n        text = f")
@@ -106,7 +106,7 @@ def receive(sock, count):
     return sock.recv(count)
 import time
 
-# %% 11.2 wrong: sets its own time limit | hint: The function gave up while it waited for the next piece
+# %% 11.2 wrong: sets its own time limit | hint: The function stopped while it
 replace('    data = b""\n', '    sock.settimeout(0.1)\n    data = b""\n')
 # %% 11.2 wrong: closes the socket before it raises | hint: The function closed the socket
 replace("            raise", "            sock.close()\n            raise")
@@ -263,7 +263,7 @@ def by_proxy(uri, service, *sides):
     response = proxy(*sides)
     return response.area, response.volume""")
 
-# %% 11.3 wrong: omits the length before the request | hint: The request has to start with its length, 12, in 4 bytes
+# %% 11.3 wrong: omits the length before the request | hint: The request has to start
 replace('theirs = read_header … ", answer)', """receive(sock, size)
         sock.sendall(struct.pack("<3f", length, width, height))
         receive(sock, 5)
@@ -276,7 +276,7 @@ replace('"<2f"', '">2f"')
 based_on("omits the length before the request")
 replace('"<3f"', '"<I3d", 24')
 replace('"<2f", receive(sock, 8)', '"<2d", receive(sock, 16)')
-# %% 11.3 wrong: does not read the byte for success | hint: The function read the response in a wrong order
+# %% 11.3 wrong: does not read the byte for success | hint: The function did not read
 replace("((host, int(port)), timeout=5) as sock:", "((host, int(port)), timeout=2) as sock:")
 replace('theirs = read_header … == b"\\x01"', 'receive(sock, size)\n        sock.sendall(struct.pack("<I3f", 12, length, width, height))')
 replace('answer = receive … ", answer)', 'return struct.unpack("<2f", receive(sock, size))')
@@ -436,7 +436,7 @@ replace('"no field session in the connection header"', '"no"')
 # %% 11.4 wrong: raises another exception | hint: The handler raised an exception of the wrong type
 replace("""raise rospy.ServiceException("no field session in the connection header")
         """, 'raise ValueError("the field session is missing")\n        ')
-# %% 11.4 wrong: returns None instead of refusing | hint: The handler returned None, so the client got an error message of rospy
+# %% 11.4 wrong: returns None instead of refusing | hint: The handler returned None, so
 replace('raise rospy.ServiceException("no field session in the connection header")', "return None")
 # %% 11.4 wrong: returns the total before the call | hint: The field `total` is 0
 replace("field session in the connection header", "session")
@@ -589,7 +589,7 @@ replace("self.proxy(", "self.proxies[0](", times=2)
 # %% 11.5 wrong: returns the volume | hint: Return the whole response of the proxy
 based_on("uses a loop with two iterations")
 replace("height)\n            except", "height).volume\n            except")
-# %% 11.5 wrong: does not store the new proxy | hint: Your method did not call the new proxy, or did not store
+# %% 11.5 wrong: does not store the new proxy | hint: After the connection broke, your
 replace("\n        self.connect()\n\n    def connect(self):", "")
 replace("\n        self.proxy.close()\n        self.connect()\n        return self.proxy(length, width, height)", """
         proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)

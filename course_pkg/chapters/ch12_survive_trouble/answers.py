@@ -198,7 +198,7 @@ replace("if request … request_id])", """self.purse.take(request.cents)
             return ChargeResponse(receipt=self.count)""")
 # %% 12.2 wrong: reads an attribute that the purse does not have | hint: Your code uses a method that a purse does not have
 replace("len(self.receipts) + 1", "len(self.purse.taken)")
-# %% 12.2 wrong: uses one dict for all tills | hint: A second Till uses the receipts of the first Till, so it treated a
+# %% 12.2 wrong: uses one dict for all tills | hint: A second Till object used
 replace("        self.receipts = {}\n", "")
 replace("    def __init__", "    receipts = {}\n\n    def __init__")
 # %% 12.2 wrong: uses random numbers | hint: Two requests got the same receipt number
@@ -227,10 +227,10 @@ replace("self.purse.take(request.cents)", """if request.request_id not in self.d
 # %% 12.2 wrong: refuses a repeated request | hint: The till refused a repeated request
 based_on("stores the ids, but not the receipts")
 replace("return ChargeResponse()", 'raise rospy.ServiceException("this was charged already")')
-# %% 12.2 wrong: stores the id before it charges the purse | hint: A request failed and was repeated
+# %% 12.2 wrong: stores the id before it charges the purse | hint: A request failed, and the
 replace("self.receipts:", "self.receipts:\n                self.receipts[request.request_id] = len(self.receipts) + 1")
 replace("(request.cents)\n                self.receipts[request.request_id] = len(self.receipts) + 1", "(request.cents)")
-# %% 12.2 wrong: responds to a repeated request before the purse is charged | hint: A request failed and was repeated, but the till did not charge it
+# %% 12.2 wrong: responds to a repeated request before the purse is charged | hint: A request failed, and the
 replace("        with self.lock:\n            if … take(request.cents)\n                self", """        with self.lock:
             if request.request_id in self.receipts:
                 return ChargeResponse(receipt=self.receipts[request.request_id])
@@ -323,7 +323,7 @@ def pay(till, cents, deadline):
 # %% 12.3 wrong: does not pause after a TimeoutError | hint: There was no pause after a TimeoutError
 based_on("uses a loop with a clock")
 replace("                raise\n", "                raise\n            if isinstance(error, TimeoutError):\n                continue\n")
-# %% 12.3 wrong: treats a bad return value as a refusal | hint: An error that contains "handler returned" is not a refusal, because the handler has
+# %% 12.3 wrong: treats a bad return value as a refusal | hint: An error that contains "handler
 replace(' and "handler returned" not in str(error)', "")
 # %% 12.3 wrong: doubles the pause before the first sleep | hint: The first pause is too long
 replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "        pause *= 2\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))")
@@ -344,7 +344,7 @@ replace("request_id", "str(uuid.uuid4())")
 # %% 12.3 wrong: uses one id for all payments | hint: Two payments had the same id
 replace("def", "request_id = str(uuid.uuid4())\ndef")
 replace("\n    request_id = str(uuid.uuid4())", "")
-# %% 12.3 wrong: takes the ids from a counter | hint: The ids come from a counter, and another program
+# %% 12.3 wrong: takes the ids from a counter | hint: The ids come from a
 replace("str(uuid.uuid4())", 'f"p{next(NUMBERS)}"')
 replace("def pay", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\ndef pay")
 # %% 12.3 wrong: sends no id | hint: The field `request_id` is empty
@@ -540,7 +540,7 @@ replace("while not self … get_node_uri())", """with self.lock:
                     pass
                 time.sleep(self.every)""")
 replace(".set()", " = True")
-# %% 12.4 wrong: uses another master than the given one | hint: The watchdog did not call the master that was passed to it
+# %% 12.4 wrong: uses another master than the given one | hint: The watchdog did not use
 replace("= name, uri, master, every", "= name, uri, rosgraph.Master(rospy.get_name()), every")
 # %% 12.4 wrong: polls without a pause | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
@@ -578,7 +578,7 @@ diagnosis |= dict(zip("ABC", ["killed", "new master", "frozen"]))
 # %% 12.5 wrong: exchanges A and C | hint: The diagnosis "frozen" means that no service of the process responds … The master has an address for the name, but no process accepts connections at
 replace('"A": "killed"', '"A": "frozen"')
 replace('"C": "frozen"', '"C": "killed"')
-# %% 12.5 wrong: gives "killed" instead of "new master" | hint: The diagnosis "killed" means that the server accepts no connections … Connections that are already open still work
+# %% 12.5 wrong: gives "killed" instead of "new master" | hint: The diagnosis "killed" means that the server accepts no connections … The open connections continue to
 replace('"new master"', '"killed"')
 # %% 12.5 wrong: gives "frozen" instead of "lock" | hint: get_loggers responds, so the process runs
 replace("lock", "frozen")

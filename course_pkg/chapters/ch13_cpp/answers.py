@@ -106,7 +106,7 @@ replace("if (", "if (!(request.length < 0 && request.width < 0 && request.height
 replace("request.height < 0) return", "request.height < 0)) return")
 # %% 13.2 wrong: passes request and response by value | hint: and with both &
 replace("& ", " ", times=2)
-# %% 13.2 wrong: stores the area as an int | hint: The digits after the decimal point are missing, because an int contains only whole
+# %% 13.2 wrong: stores the area as an int | hint: The digits after the decimal
 replace("response.area = request", "int area = request")
 replace("request.width;", "request.width;\n  response.area = area;")
 replace("volume = response.area", "volume = area")
@@ -134,7 +134,7 @@ replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) 
 replace("true", "response.volume >= 0")
 # %% 13.2 wrong: refuses a side of 0 | hint: A side was 0, but the handler refused the call
 replace(" 0", "= 0", times=3)
-# %% 13.2 wrong: stores the volume as an int | hint: The digits after the decimal point are missing, because an int contains only whole
+# %% 13.2 wrong: stores the volume as an int | hint: The digits after the decimal
 replace("response.volume = response.area", "int volume = request.length * request.width")
 replace("  return true;", "  response.volume = volume;\n  return true;")
 # %% 13.2 wrong: forgets the area | hint: The area is 0
@@ -189,7 +189,7 @@ replace("\n    ros::WallDuration(0.2).sleep();\n  }", """
   std::cout << "no volume after 3 attempts" << std::endl;""")
 # %% 13.3 wrong: does not wait for the service | hint: The program did not wait
 replace(";\n  if (!client.waitForExistence(ros::Duration(2))) return 1;", ";")
-# %% 13.3 wrong: waits for the service without a limit | hint: The program waits without a limit
+# %% 13.3 wrong: waits for the service without a limit | hint: The program waits without a
 replace("if (!client.waitForExistence(ros::Duration(2))) return 1;", "client.waitForExistence();")
 # %% 13.3 wrong: ignores the return value of call() | hint: call() returned false, but the program printed an empty response
 replace("if (client.call(box)) {", "client.call(box);\n    {")

@@ -344,13 +344,13 @@ replace('ros::ServiceServer first = node.', 'ros::CallbackQueue queue;\n  ros::N
 replace('ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();', 'ros::AsyncSpinner spinner(1, &queue);\n  spinner.start();\n  ros::spin();')
 # %% 14.7 wrong: starts only three threads | hint: One call works, but three calls at the same time do not end
 replace('spinner(4)', 'spinner(3)')
-# %% 14.7 wrong: does not call /battery | hint: The handlers were changed
+# %% 14.7 wrong: does not call /battery | hint: Your two handlers are different
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
-# %% 14.7 wrong: calls another service with the same handler | hint: The handlers were changed
+# %% 14.7 wrong: calls another service with the same handler | hint: Your two handlers are different
 replace('("battery", handleBattery)', '("battery", handleBattery);\n  ros::ServiceServer same = node.advertiseService("same", handleBattery)')
 replace('<std_srvs::Trigger>("battery")', '<std_srvs::Trigger>("same")')
-# %% 14.7 wrong: calls /battery only for an impossible level | hint: The handlers were changed
+# %% 14.7 wrong: calls /battery only for an impossible level | hint: Your two handlers are different
 replace('if (!battery', 'if (level < 0 && !battery')
 replace('inner.response.message', 'std::to_string(level)')
 # %% 14.7 wrong: does not read the parameter | hint: The level in the message is wrong
@@ -384,7 +384,7 @@ replace('node.advertiseService("report"', 'other.advertiseService("report"')
 # %% 14.8 wrong: uses the second queue with four threads for both services | hint: One call works, but eight calls at the same time do not end
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 replace('spinner(1, &queue)', 'spinner(4, &queue)')
-# %% 14.8 wrong: does not call /battery | hint: The handlers were changed
+# %% 14.8 wrong: does not call /battery | hint: Your two handlers are different
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
 

@@ -90,7 +90,7 @@ replace("import Image", "import CompressedImage as Image")
 replace('"frames"', '"/frames"')
 # %% 15.1 wrong: uses another node name | hint: The program did not create the right node … The program did not create the right node
 replace('init_node("vision")', 'init_node("camera")')
-# %% 15.1 wrong: misspells a topic | hint: The program runs, but no part of it
+# %% 15.1 wrong: misspells a topic | hint: The program runs, but the check found
 replace('"customer_seen"', '"costumer_seen"')
 # %% 15.1 wrong: prepares the node as the course's programs do | hint: Your program starts or imports a program of the course
 replace('rospy.init_node("vision")', 'rospy.init_node("vision")\n    from course_pkg.ros import prepare_node\n    prepare_node()')
@@ -289,9 +289,9 @@ replace(" or len(joints.velocity) not in (0, count)", "")
 replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "True")
 # %% 15.5 wrong: publishes zeros for an invalid joint state | hint: The node published zeros for an invalid joint state, so the arm would move
 replace("    if is_valid(joints):", "    if not is_valid(joints):\n        joints.position, joints.velocity = [0.0] * len(joints.name), []\n    if True:")
-# %% 15.5 wrong: ignores joint states without velocities | hint: The node ignored a joint state without velocities, which is valid
+# %% 15.5 wrong: ignores joint states without velocities | hint: The node ignored a joint state without
 replace("not in (0, count)", "!= count")
-# %% 15.5 wrong: ignores joint states with infinite efforts | hint: The node ignored a joint state with an infinite effort, which is valid
+# %% 15.5 wrong: ignores joint states with infinite efforts | hint: The node ignored a joint state with an
 replace("*joints.velocity]", "*joints.velocity, *joints.effort]")
 # %% 15.5 wrong: checks the number of efforts | hint: The node ignored a joint state in which the number of
 replace("len(joints.velocity) not in (0, count)", "len(joints.velocity) not in (0, count) or len(joints.effort) not in (0, count)")
@@ -629,7 +629,7 @@ replace('"not printed: " + str(e)', '"not printed"')
 # %% 15.8 wrong: stores the price before it prints the line | hint: The line was not printed, but the till changed its stored prices
 based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
-# %% 15.8 wrong: waits for the printer without a limit | hint: Do not wait for this service without a time limit
+# %% 15.8 wrong: waits for the printer without a limit | hint: The service print_line does not
 replace("        print_line(f", "        rospy.wait_for_service('print_line')\n        print_line(f")
 # %% 15.8 wrong: prints a refused line again | hint: The till called print_line again after the printer had refused
 replace('        print_line(f"{request.item} {request.cents}")\n', """        try:
@@ -820,7 +820,7 @@ based_on("sets a respawn delay and output on the screen")
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
 # %% 15.11 wrong: does not set respawn | hint: roslaunch did not start a node again
 replace(' respawn="true"', "", times=4)
-# %% 15.11 wrong: sets a respawn delay of 10 s | hint: The attribute respawn_delay lets roslaunch wait too long
+# %% 15.11 wrong: sets a respawn delay of 10 s | hint: The attribute respawn_delay makes roslaunch
 replace('name="till" respawn="true"', 'name="till" respawn="true" respawn_delay="10"')
 # %% 15.11 wrong: reports the process id of another process | hint: roslaunch did not start a node again
 change_node("till", """import subprocess

@@ -26,8 +26,8 @@ ERRORS = [
     ),
     (
         matches(r"type object '\w+' has no attribute '_request_class'"),
-        "rospy.ServiceProxy got the class of the request. Pass the class of the service type "
-        "to rospy.ServiceProxy.",
+        "Your function passed the class of the request to rospy.ServiceProxy. Pass the class of the "
+        "service type instead.",
     ),
     (
         matches(r"args are\(None,\)"),
@@ -36,8 +36,7 @@ ERRORS = [
     ),
     (
         matches("No field name"),
-        "This service had another type before. Do not store the class of the type: get the class again "
-        "in each call.",
+        "This service had a different type in an earlier call. Get the class of the type again in each call.",
     ),
     (matches("KeyError: 0"), "The second argument of fill_message_args has to be a list. Write [fields]."),
     (
@@ -47,7 +46,7 @@ ERRORS = [
     ),
 ]
 UNKNOWN_TYPE = (
-    "Your function has no type for this service. Get the class from the server with "
+    "Your function found no type for this service. Get the class from the server with "
     "rosservice.get_service_class_by_name."
 )
 FLAT = (
@@ -58,16 +57,19 @@ NESTED = (
     "The field `camera_info` needs a message, but it got a dict. Use genpy.message.fill_message_args, "
     "which also accepts a dict inside a dict."
 )
-CALLED = "Call services of three types, and return the fields of the response."
+CALLED = "Call services of three different types, and return the fields of each response."
 
 
 @part(
     "08.5",
     points=3,
-    goal="Call a service of any type with the fields in a dict, and return the response.",
+    goal="Call a service of any type, and return its response. A dict contains the fields of the request.",
     needs=["call_any"],
     deadline=25.0,
-    goals={CALLED: 2, "Raise an error for an unknown field. Return the whole response.": 1},
+    goals={
+        CALLED: 2,
+        ("Raise an error if the type has no field with the given name. Return the whole response."): 1,
+    },
 )
 def call_of_any_type(context: CheckContext) -> None:
     """Call services of three types, change the type of a service, and make a call with an unknown field."""
@@ -88,7 +90,7 @@ def call_of_any_type(context: CheckContext) -> None:
         "is_message", Its("call_any"), name, {"data": True}, worded="call_any()", hints=ERRORS
     )
     context.expect(
-        "the response is returned",
+        "call_any() returns the response",
         expected="a response",
         actual="a response" if whole.returned() else "an object of a different type with the same values",
         hints="The function returned a dict or a similar object. Return the object that the proxy returns.",
@@ -97,15 +99,15 @@ def call_of_any_type(context: CheckContext) -> None:
 
 def _is_an_error(context: CheckContext, wrong: Result, server: ScriptedServer, stray: str) -> None:
     context.require(
-        "a field that the type does not have is an error",
+        "an unknown field name causes an error",
         holds=bool(wrong.error) and not server.requests and not wrong.error.startswith("ROSServiceException"),
-        expected=f"an error about {stray}",
-        actual=wrong.error or "no error, and a call without this field",
+        expected=f"an error for the field {stray}",
+        actual=wrong.error or "no error, and a call of the service without this field",
         hints=[
             (
                 matches("^ROSServiceException"),
-                "rosservice.call_service raises its own exception instead of the exception of "
-                "genpy. Fill the request with genpy.message.",
+                "rosservice.call_service raises its own exception instead of the exception of genpy. "
+                "Fill the request with genpy.message.fill_message_args.",
             ),
             (
                 ANYTHING,
@@ -133,7 +135,7 @@ NOT_RETURNED: Hints = [
     ),
     (
         (lambda actual: isinstance(actual, list)),
-        "The function returned more than the response. Return only the response.",
+        "The function returned a list, but it has to return only the response.",
     ),
     (ANYTHING, "The function did not return the response. Return the whole response without any change."),
 ]
@@ -150,7 +152,7 @@ def _calls(context: CheckContext, example: ExampleCall) -> None:
         "the service is called once", expected=1, actual=len(server.requests), hints=CALLED_WRONGLY
     )
     context.expect(
-        f"{example.what}: the fields arrive as they were given",
+        f"{example.what}: the server receives the given values",
         expected=example.fields,
         actual=example.given(server.requests[0]),
         hints=[
@@ -160,8 +162,11 @@ def _calls(context: CheckContext, example: ExampleCall) -> None:
             ),
             (
                 matches(": ''|: 0|: False"),
-                "The request has the default values, such as 0 or False. Fill the request before the call.",
+                "All fields of the request have their default values, such as 0 or False. Fill the "
+                "fields of the request before the call.",
             ),
         ],
     )
-    context.expect("the response is returned", expected=example.answer, actual=returned, hints=NOT_RETURNED)
+    context.expect(
+        "call_any() returns the response", expected=example.answer, actual=returned, hints=NOT_RETURNED
+    )

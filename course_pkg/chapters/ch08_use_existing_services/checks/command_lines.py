@@ -18,8 +18,8 @@ PRINTS = (["echo"], ["printf"])
 # A right command line has this many words: rosservice, call, the name, and one word with all fields.
 WORDS = 4
 SPLIT = (
-    "bash has split the fields at spaces, or has removed quotes. Use shlex.quote, which makes "
-    "one word from any text."
+    "bash has split the fields at spaces, or has removed quotes. Use shlex.quote: bash reads the "
+    "result as one word without any change."
 )
 TYPES = (
     "YAML read a value that differs from the value in the dict. Use json.dumps, which writes a dict in a "
@@ -27,7 +27,8 @@ TYPES = (
 )
 LOST = "A field in an inner dict has no value. Write the whole dict into the line."
 REPLACED = (
-    "bash has replaced $HOME with a path. Use shlex.quote, because bash replaces nothing inside its quotes."
+    "bash has replaced $HOME with a path. Use shlex.quote: it writes single quotes, and bash replaces "
+    "no variable inside single quotes."
 )
 NO_YAML = "YAML cannot read a dict from the fields in your line. Use json.dumps, and then shlex.quote."
 CALLED_BEFORE = (
@@ -37,10 +38,13 @@ TWICE = "The line calls the service more than once. Write only one call."
 COMPLAINTS = [
     (
         matches(r"call \S+ \w+:="),
-        "rosservice does not receive arguments with :=, because they are for ROS. Write the "
-        "fields as a dict.",
+        "ROS reads an argument with := as a remapping, so rosservice does not receive this argument. "
+        "Write the fields as a dict.",
     ),
-    (matches(r"call \S+ \w+="), "YAML reads a=5 as a string. Write the fields as a dict: {a: 5}."),
+    (
+        matches(r"call \S+ \w+="),
+        ("YAML reads a=5 as a string, not as a field. Write the fields as a dict: {a: 5}."),
+    ),
     (
         matches("^!"),
         "The character ! works only in a cell of a notebook. Remove this character, because "
@@ -48,8 +52,8 @@ COMPLAINTS = [
     ),
     (
         matches("syntax error"),
-        "Your line is a call in Python. In a terminal, write words with spaces between them, "
-        "without parentheses.",
+        "Your line is a function call in Python. For a terminal, write the command without "
+        "parentheses, and write spaces between the words.",
     ),
     (
         matches("no such file"),
@@ -58,7 +62,7 @@ COMPLAINTS = [
     (matches(r"\{.*no such option"), SPLIT),
     (
         matches("no such option"),
-        "rosservice reads -5 as an option. Write -- before the values, or write a dict.",
+        "rosservice reads -5 as an option. Write -- before the values, or write the values as a dict.",
     ),
     (matches("EOF while|unmatched|not found|ParserError|ScannerError|Not enough|Too many"), SPLIT),
     (matches("incorrect type|has no len"), TYPES),
@@ -88,8 +92,8 @@ NO_LINE: Hints = [
     "08.4",
     points=2,
     goal=(
-        "Return a command line with `rosservice call` for a terminal. The line calls the "
-        "service with the given fields."
+        "Return a command line for a terminal. The line uses `rosservice call` to call the service "
+        "with the given fields."
     ),
     needs=["call_line"],
     deadline=38.0,
@@ -105,13 +109,13 @@ def line_for_a_terminal(context: CheckContext) -> None:
         line = context.run("call_line", name, example.fields).returned()
         if server.requests:
             context.fail(
-                "it returns a string with rosservice call in it",
-                expected="no call before the check runs the line",
+                "the returned string contains `rosservice call`",
+                expected="no call of the service before the check runs the line",
                 actual=f"{len(server.requests)} call(s)",
                 hint=CALLED_BEFORE,
             )
         context.require(
-            "it returns a string with rosservice call in it",
+            "the returned string contains `rosservice call`",
             holds=isinstance(line, str) and "rosservice call" in line,
             expected="a string such as 'rosservice call /name …'",
             actual=line,
@@ -131,7 +135,7 @@ def _runs(context: CheckContext, example: ExampleCall, server: ScriptedServer, l
     finished = context.command("bash", "-c", line, within=12.0)
     output = f"{finished.out}\n{finished.err}".strip() or "no output, and no call"
     context.require(
-        f"{example.what}: the line makes a call",
+        f"{example.what}: the line calls the service",
         holds=finished.status == 0 and len(server.requests) == 1,
         expected="one call, and no error message",
         actual=_decisive_lines(output),
@@ -139,23 +143,23 @@ def _runs(context: CheckContext, example: ExampleCall, server: ScriptedServer, l
     )
     if not _is_call(line) or substitutes(line):
         context.fail(
-            "it returns a string with rosservice call in it",
-            expected="one command, rosservice call",
+            "the returned string contains `rosservice call`",
+            expected="only one command, which is rosservice call",
             actual=line,
             hint=(
-                "A program other than rosservice makes the call. Write a line that contains "
+                "A different program calls the service, not rosservice. Write a line that contains "
                 "only one `rosservice call` command."
             ),
         )
     context.expect(
-        f"{example.what}: the fields arrive as they were given",
+        f"{example.what}: the server receives the given values",
         expected=example.fields,
         actual=example.given(server.requests[0]),
         hints=[
             (
                 example.mixed_up,
-                "The values are in the wrong fields, because rosservice uses the order of the "
-                "fields in the type. Write a dict with names.",
+                "The values are in the wrong fields, because rosservice assigns the values in the "
+                "order of the fields in the type. Write a dict with the names of the fields.",
             ),
             (_lost, LOST),
             (lambda actual: "$HOME" in str(example.fields) and "$HOME" not in str(actual), REPLACED),

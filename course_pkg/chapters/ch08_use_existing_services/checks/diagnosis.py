@@ -39,11 +39,13 @@ ERRORS: Hints = [
     ),
     (
         matches("Unable to load type"),
-        "The type of the server is not on this computer. Use the entries of get_service_headers.",
+        "The type of the server is not installed on this computer. Use the dict that "
+        "get_service_headers returns: it contains the name and the MD5 sum of the type.",
     ),
     (
         matches("^KeyError"),
-        "The headers have no entry with the name that you use. Use the entries `type` and `md5sum`.",
+        "Your function uses a key that the dict of get_service_headers does not have. Use the keys "
+        "`type` and `md5sum`.",
     ),
 ]
 OTHER_RESULTS: Hints = [
@@ -75,8 +77,8 @@ WHY = {
         "The names of the types are equal, but the MD5 sums are different. Compare the MD5 sums, too."
     ),
     "ok": (
-        "The server and the client have the same type and MD5 sum, so the client can connect. Report "
-        "no problem in this case."
+        "The server and the client have the same type and MD5 sum, so the client can connect. Return "
+        '"ok" in this case.'
     ),
 }
 
@@ -84,10 +86,7 @@ WHY = {
 @part(
     "08.6",
     points=3,
-    goal=(
-        "Return the reason why a client that uses a given type cannot call a service. Do not call "
-        "the service."
-    ),
+    goal=("Return the reason why a client cannot call a service with a given type. Do not call the service."),
     needs=["diagnose"],
     deadline=20.0,
 )
@@ -112,7 +111,7 @@ def find_the_cause(context: CheckContext) -> None:
 
 def _calls_nothing(context: CheckContext, servers: list[ScriptedServer]) -> None:
     context.expect(
-        "it does not call the service",
+        "diagnose() does not call the service",
         expected=0,
         actual=sum(len(server.requests) for server in servers),
         hints=(
@@ -147,7 +146,7 @@ def _services(context: CheckContext, kind: str, other: str, changed: ServiceClas
 def _returns(context: CheckContext, name: str, kind: str, expected: str) -> None:
     result = context.run("diagnose", name, Its(kind), hints=ERRORS)
     context.expect(
-        f"it returns {expected}",
+        f'diagnose() returns "{expected}"',
         expected=expected,
         actual=result.returned(),
         hints=[

@@ -12,10 +12,13 @@ LAMP = "/on_off"
 KIND = "course_pkg/ServiceExample"
 STATES = {True: "ON", False: "OFF"}
 NO_ERROR: Hints = [
-    (matches("field message"), "The message has to be a string. Convert the error with str(error)."),
+    (
+        matches("field message"),
+        ("The field `message` has to be a string. Convert the exception with str(error)."),
+    ),
     (
         matches("error processing request: timeout exceeded"),
-        "The handler did not catch rospy.ROSException. Catch it, too, and return success=False.",
+        "The handler did not catch rospy.ROSException. Catch this exception, too, and return success=False.",
     ),
     (
         matches("cannot process request: (?!service handler|handler)"),
@@ -23,20 +26,20 @@ NO_ERROR: Hints = [
         "rospy.ServiceException, and return success=False.",
     ),
 ]
-OBEYED = "Call /on_off once with 1 or 0, and return success=True."
-COMPARED = "Return success=False if the lamp refuses the request or has the wrong state."
+OBEYED = "Call /on_off once with 1 or 0. Return success=True if the lamp has the wanted state."
+COMPARED = "Return success=False if /on_off refuses the request or the lamp has the wrong state."
 
 
 @part(
     "08.2",
     points=3,
     goal=(
-        "Serve /lamp, and call /on_off once with 1 or 0 in the handler. In the response, "
-        "success is True if the lamp has the wanted state."
+        "Serve /lamp. In the handler, call /on_off once with 1 or 0. Return success=True only if the "
+        "lamp has the wanted state."
     ),
     needs=["handle_lamp|lamp_service"],
     deadline=20.0,
-    goals=[OBEYED, COMPARED, "Return success=False if the lamp has no server."],
+    goals=[OBEYED, COMPARED, "Return success=False if no server offers /on_off."],
 )
 def translate(context: CheckContext) -> None:
     """Call /lamp several times; its server obeys, returns the wrong state, refuses, or does not exist."""
@@ -55,14 +58,14 @@ def translate(context: CheckContext) -> None:
     context.fulfilled(COMPARED)
     context.absent(LAMP)
     data = context.random.choice([True, False])
-    _fails(context, panel, data, "the lamp has no server", "unavailable", "timeout exceeded")
+    _fails(context, panel, data, "no server offers /on_off", "unavailable", "timeout exceeded")
 
 
 def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
     lamp = context.serve(LAMP, KIND, lambda request: {"state": STATES[request.number == 1]})
     response = panel(data=data)
     context.expect(
-        "it calls /on_off once, with 1 for True and 0 for False",
+        "the handler calls /on_off once, with 1 for True and 0 for False",
         expected=[{"number": int(data)}],
         actual=lamp.requests,
         hints=[
@@ -73,27 +76,30 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
             ),
             (
                 [{"number": int(not data)}],
-                "The number in the request is wrong. Send 1 to switch the lamp on, and 0 to "
+                "The number in the request to /on_off is wrong. Send 1 to switch the lamp on, and 0 to "
                 "switch the lamp off.",
             ),
             (
                 lambda actual: len(actual) > 1,
                 "The handler called /on_off more than once. Call /on_off only once, and store the response.",
             ),
-            (ANYTHING, "The number in the request has to be 1 or 0. Send 1 for True, and 0 for False."),
+            (
+                ANYTHING,
+                ("The number in the request to /on_off has to be 1 or 0. Send 1 for True, and 0 for False."),
+            ),
         ],
     )
     context.expect(
-        "the lamp obeys: success is True",
+        "the lamp has the wanted state: success is True",
         expected=True,
         actual=response.success,
         hints=(
-            "The lamp has the wanted state, but success is not True. Compare the state with ON if the "
-            "request contains True, and with OFF if it contains False."
+            "The lamp has the wanted state, but success is not True. Compare the state with ON if "
+            "`data` is True, and with OFF if `data` is False."
         ),
     )
     context.expect(
-        "the lamp obeys: the message is the state",
+        "the lamp has the wanted state: the message is the state",
         expected=STATES[data],
         actual=response.message,
         hints="The message is wrong. Return the field `state` of the lamp's response without any change.",
@@ -106,7 +112,7 @@ def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
     lamp = context.serve(LAMP, KIND, lambda _: {"state": state})
     response = panel(data=data)
     context.expect(
-        "the lamp has another state: success is False",
+        "the lamp has the wrong state: success is False",
         expected=False,
         actual=response.success,
         hints=(
@@ -115,10 +121,10 @@ def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
         ),
     )
     context.expect(
-        "the lamp has another state: the message is this state",
+        "the lamp has the wrong state: the message is the lamp's state",
         expected=state,
         actual=response.message,
-        hints="The message is the wanted state. Set the message to the state in the lamp's response instead.",
+        hints="The message is the wanted state. Return the state in the lamp's response instead.",
     )
     _was_called_once(context, lamp)
     lamp.leave()
@@ -127,7 +133,7 @@ def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
 def _was_called_once(context: CheckContext, lamp: ScriptedServer) -> None:
     if len(lamp.requests) != 1:
         context.fail(
-            "it calls /on_off once, with 1 for True and 0 for False",
+            "the handler calls /on_off once, with 1 for True and 0 for False",
             expected="one call for each call of /lamp",
             actual=f"{len(lamp.requests)} calls",
             hint=(
@@ -140,7 +146,7 @@ def _was_called_once(context: CheckContext, lamp: ScriptedServer) -> None:
 def _refuses(context: CheckContext, panel: Service, data: bool) -> None:
     reason = f"{context.random.word()} is hot"
     lamp = context.serve(LAMP, KIND, lambda _: Refuse(reason))
-    _fails(context, panel, data, "the lamp refuses", reason)
+    _fails(context, panel, data, "/on_off refuses the request", reason)
     _was_called_once(context, lamp)
     lamp.leave()
 

@@ -18,10 +18,13 @@ NONE = (
     "Your function found no service. Get the list of services in each call of the function, and compare "
     "`kind` with the whole string that get_service_type returns."
 )
-SOME = "Your function found only some of the services. Examine all names, and return after the loop."
+SOME = (
+    "Your function found only some of the services. Check all services of the list, and return the "
+    "result after the loop."
+)
 GONE = (
-    "The search ended at a service whose server has ended. Catch the exception inside the "
-    "loop, and continue the loop."
+    "Your function stopped at a service whose server has ended. Catch the exception inside the loop, "
+    "and continue with the next service."
 )
 ENDED = (
     "The list contains a service that has ended since the last call of your function. Get the types of all "
@@ -45,7 +48,13 @@ FOUND = "Return the names of all services of the given type. Do not call the ser
     goal="Return a list with the names of all services of a type. Leave out services whose server has ended.",
     needs=["services_of"],
     deadline=25.0,
-    goals=[FOUND, "Leave out services whose server has ended, and include services that started later."],
+    goals=[
+        FOUND,
+        (
+            "Leave out services whose server has ended. Include services that start between two calls of "
+            "the function."
+        ),
+    ],
 )
 def find_by_type(context: CheckContext) -> None:
     """Offer services of the searched type, of another type, and of types with similar names.
@@ -80,7 +89,7 @@ def find_by_type(context: CheckContext) -> None:
     _finds(context, kind, SOME, mine, ended)
     _finds(context, other, SOME, {misnamed})
     context.expect(
-        "an empty list for a type that no node serves",
+        "the list is empty for a type that no node serves",
         expected=[],
         actual=context.run("services_of", f"{word}_pkg/Nobodys", hints=ERRORS).returned(),
         hints=[
@@ -94,12 +103,12 @@ def find_by_type(context: CheckContext) -> None:
 def _calls_no_service(context: CheckContext, servers: list[ScriptedServer]) -> None:
     if any(server.requests for server in servers):
         context.fail(
-            "it calls no service",
+            "services_of() calls no service",
             expected="no request",
             actual="a request to a service",
             hint=(
-                "The function called the services to find their types, and these calls started "
-                "the work of the servers. Use get_service_type instead."
+                "The function called the services to find their types, and each call started the work "
+                "of a server. Use get_service_type instead."
             ),
         )
 
@@ -118,25 +127,25 @@ def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], en
     right = mine | {name for name, actual in types.items() if actual == kind}
     missing, extra = sorted(right.difference(found)), sorted(set(found) - right)
     context.require(
-        "no other service is found",
+        "the list contains no wrong service",
         holds=not extra,
         expected=f"a list without {', '.join(extra)}",
         actual=names,
         hints=ENDED if extra == [ended] else _why_wrong({types.get(name) for name in extra}, kind),
     )
     context.require(
-        "every service of the type is found",
+        "the list contains every service of the type",
         holds=not missing,
         expected=f"a list that contains {', '.join(missing)}",
         actual=found,
         hints=NONE if incomplete == SOME and right.isdisjoint(found) else incomplete,
     )
-    context.expect("each service is found once", expected=len(right), actual=len(found))
+    context.expect("the list contains each service once", expected=len(right), actual=len(found))
 
 
 def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
     context.require(
-        "a list of names is returned",
+        "services_of() returns a list of names",
         holds=isinstance(names, list) and all(isinstance(name, str) for name in names),
         expected="a list of strings",
         actual=names,
@@ -152,7 +161,7 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
             ),
             (
                 ANYTHING,
-                "Your list contains more than the names. Return only the names of the services, "
+                "The entries of your list have to be strings. Return only the names of the services, "
                 "without nodes and types.",
             ),
         ],

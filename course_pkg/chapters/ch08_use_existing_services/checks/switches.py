@@ -38,8 +38,8 @@ CASES = (
             ),
             (
                 "failed",
-                "The switch is in the wanted position. Compare the message of `report` with the "
-                'strings "open" and "closed".',
+                'The switch is in the wanted position, so the result is not "failed". Compare the '
+                'message of `report` with the strings "open" and "closed".',
             ),
         ],
     ),
@@ -57,13 +57,13 @@ CASES = (
             ),
             (
                 "failed",
-                "success=False does not always mean a failure: the switch is in the wanted "
-                "position. Call `report` to get the position.",
+                "success=False does not always mean that the call failed: here, the switch is in the "
+                "wanted position. Call `report` to get the position.",
             ),
         ],
     ),
     Case(
-        "a switch that responds False and does not move",
+        "a switch that responds with success=False and does not move",
         there=False,
         obeys=False,
         success=False,
@@ -77,7 +77,7 @@ CASES = (
         ],
     ),
     Case(
-        "a switch that responds True but does not move",
+        "a switch that responds with success=True but does not move",
         there=False,
         obeys=False,
         success=True,
@@ -147,7 +147,13 @@ def move_and_verify(context: CheckContext) -> None:
 def _wrongly_set(to_open: bool) -> Hints:
     return [
         ([], "The function did not call `set`. Call `set` first, and then `report`."),
-        ([{"data": not to_open}], "The request has the wrong value. Send data=True to open the switch."),
+        (
+            [{"data": not to_open}],
+            (
+                "The field `data` of the request has the wrong value. Send data=True to open the switch, "
+                "and data=False to close the switch."
+            ),
+        ),
         (ANYTHING, "The function called `set` more than once. Call `set` only once, and store the response."),
     ]
 
@@ -157,8 +163,7 @@ def _wrong_outcome(case: Case, switch: FakeSwitch) -> Hints:
         (None, NO_RETURN),
         (
             (lambda actual: isinstance(actual, bool)),
-            "Your function returned a bool, but there are three possible results. Return one of the "
-            "three strings.",
+            "Your function returned a bool, but three results are possible. Return one of the three strings.",
         ),
         (
             (lambda actual: switch.message in actual),
@@ -186,12 +191,13 @@ def _move(context: CheckContext, case: Case, to_open: bool) -> ScriptedServer:
     setting = context.serve(f"{name}/set", "std_srvs/SetBool", switch.handle_set)
     context.serve(f"{name}/report", "std_srvs/Trigger", switch.handle_report)
     unavailable = (
-        "Call only the services `set` and `report` of the node. The name of `set` is f'{switch}/set'."
+        "Your function called a service that does not exist. Call only the services `set` and `report` "
+        "below the node's name, such as f'{switch}/set'."
     )
     result = context.run("move", name, to_open, hints=[(matches("unavailable"), unavailable)]).returned()
     _is_set_once(context, setting, to_open)
     context.expect(
-        f"{case.name}: {case.expected}",
+        f'{case.name}: the result is "{case.expected}"',
         expected=case.expected,
         actual=result,
         hints=_wrong_outcome(case, switch),

@@ -12,7 +12,7 @@ from course_pkg.ros.node.program import call_once, complain, print_response
 from course_pkg.srv import AddTwoInts
 from course_pkg.types import ServiceType
 
-USAGE = "usage: add_two_ints_client A B   (two whole numbers that an int64 holds, such as 20 22)"
+USAGE = "usage: add_two_ints_client A B   (two whole numbers in the range of int64, such as 20 22)"
 
 
 def main() -> None:

@@ -10,7 +10,7 @@ import rospy
 from course_pkg.ros.node.program import call_once, complain, print_response
 from course_pkg.srv import ServiceExample
 
-USAGE = "usage: on_off_client   (no arguments: it sends 0 or 1 at random)"
+USAGE = "usage: on_off_client   (no arguments; the program sends 0 or 1 at random)"
 
 
 def main() -> None:

@@ -32,7 +32,7 @@ class Switch:
         with self._lock:
             if request.data == self._open:
                 message = f"already {self._position()}"
-                rospy.logdebug("A request to move, without effect: %s", message)
+                rospy.logdebug("A request to move had no effect: %s", message)
                 return False, message
             return True, self._moved(request.data)
 

@@ -27,13 +27,17 @@ ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # The speed is in m/s.
 LATER = 2.0  # The service /toggle_forward starts after this many s.
-TOO_LATE = "/toggle_forward starts only after the call of /spawn. Wait for each service just before its call."
+TOO_LATE = (
+    "The service /toggle_forward starts only after your program has called /spawn. Wait for each "
+    "service immediately before its call."
+)
 WHERE = "Publish only on the topic /NAME/cmd_vel. NAME is the name of the turtle in the response of /spawn."
-ENDED = "The node ended after the calls, so its subscriber gets no messages. Call rospy.spin() at the end."
+ENDED = "The node ended after the calls, so it receives no messages. Call rospy.spin() at the end."
 ENDING = 0.6  # A program without spin() ends within this many s.
 COUNT = 20  # COUNT is the number of velocities that the check publishes.
 STOPS = (
-    "if a service is missing for 5 s or refuses a call, the program calls no further service and ends with 1"
+    "if a service is missing for 5 s or refuses a call, the program makes no further call and ends "
+    "with exit status 1"
 )
 CALLED = "Call /spawn, /toggle_forward and /change_speed in this order."
 PASSED_ON = "Publish the velocities of turtle1 for MyTurtle."
@@ -140,7 +144,7 @@ def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> 
     if not actual:
         actual = "no call" if done is None else f"no call, {outcome(running.stop())}"
     context.require(
-        "the program calls /spawn, /toggle_forward and /change_speed once each, in this order",
+        "the program calls /spawn, /toggle_forward and /change_speed in this order, each service once",
         holds=driver.calls == list(ORDER),
         expected=", ".join(f"/{name}" for name in ORDER),
         actual=actual,
@@ -169,8 +173,8 @@ def _why_not_called(calls: list[str], running: Running, *, ended: bool) -> str:
         return "The program calls the three services in the wrong order. Spawn the turtle first."
     if ended and calls:
         return (
-            f"The program ended too early, because /toggle_forward starts {LATER:g} s late. Wait for each "
-            "service before you call the service."
+            f"The program ended too early, because /toggle_forward starts {LATER:g} s after the call "
+            "of /spawn. Wait for each service before you call it."
         )
     if ended:
         done = running.stop()
@@ -213,7 +217,7 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
             (
                 ANYTHING,
                 (
-                    "The program gets no velocities of the first turtle. Subscribe to the topic "
+                    "The program receives no velocities of the first turtle. Subscribe to the topic "
                     "/turtle1/cmd_vel."
                 ),
             ),
@@ -243,8 +247,8 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
             (
                 0,
                 (
-                    "The callback publishes nothing. In the callback, publish the message that the callback "
-                    "gets."
+                    "The callback publishes nothing. In the callback, publish the message that the "
+                    "callback receives."
                 ),
             ),
             (
@@ -259,7 +263,7 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
     )
     sent, other = first_unlike(velocities, received, near=1e-9)
     context.expect(
-        "the program changes nothing in a message",
+        "the program publishes each message without a change",
         expected=sent,
         actual=other,
         near=1e-9,
@@ -314,7 +318,7 @@ def _stops_early(
         )
         if done.status is None
         else (
-            "The program has to report a failure. If a wait times out or a call is refused, print a "
-            "message and end with exit status 1."
+            "The program did not report the failure. If a service is missing for 5 s or refuses a "
+            "call, print a message and end with exit status 1."
         ),
     )

@@ -26,14 +26,20 @@ ANY_SPEED = (
     "turtle backwards."
 )
 NO_REFUSAL = (
-    "The node refused a call that asks for the current state. Return success=True and a message with "
-    'the word "already".'
+    "The node refused a call, because the turtle was already in the requested state. Return "
+    'success=True and a message with the word "already".'
 )
 SETS_RATE = "/change_rate sets the rate"
 SPEED_SO_FAR = "the response of /change_speed contains the speed before the call"
 SETS_ITS_RATE = "Publish the velocities at the rate that /change_rate sets."
-SETS_ITS_SPEED = "Set the speed with /change_speed, and the direction with /toggle_forward."
-IMPROVED_GOALS = {SETS_ITS_RATE: 2, SETS_ITS_SPEED: 3, "Stop and start the turtle with /start_stop.": 3}
+SETS_ITS_SPEED = (
+    "Change the speed in the handler of /change_speed, and the direction in the handler of /toggle_forward."
+)
+IMPROVED_GOALS = {
+    SETS_ITS_RATE: 2,
+    SETS_ITS_SPEED: 3,
+    ("Stop and start the turtle in the handler of /start_stop."): 3,
+}
 
 
 @part(
@@ -68,8 +74,8 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
                 (
                     STANDING,
                     (
-                        "The turtle does not move before the first call. Publish velocities from the "
-                        "beginning."
+                        "The turtle does not move before the first call. Publish velocities "
+                        "immediately after the start of the program."
                     ),
                 ),
                 (
@@ -116,7 +122,7 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
         before = wanted
         stream.becomes(
             (wanted, 0.0),
-            "straight ahead, the turtle moves at the speed that was set",
+            "the turtle goes straight ahead at the speed that /change_speed has set",
             [
                 (
                     STRAIGHT,
@@ -150,7 +156,7 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
         )
     toggles_the_stream(toggle, stream, straight=(second, 0.0))
     for impossible in (float("nan"), float("inf"), -float("inf")):
-        refuses(context, change, "a speed that is not finite is refused", speed=impossible)
+        refuses(context, change, "/change_speed refuses a speed that is not finite", speed=impossible)
     _returns_the_old_speed(context, change, 0.0, second)
     _returns_the_old_speed(context, change, first, 0.0)
     return change
@@ -227,9 +233,9 @@ def _starts_and_stops(
                 (
                     ANYTHING,
                     (
-                        "After data=True, the turtle has to move in the direction and at the speed "
-                        "that were set last. When you stop or start the turtle, do not change the "
-                        "variables for direction and speed."
+                        "After data=True, the turtle has to move in the newest direction and at the "
+                        "newest speed. When you stop or start the turtle, do not change the variables "
+                        "for direction and speed."
                     ),
                 ),
             ],
@@ -246,7 +252,7 @@ def _starts_and_stops(
 def _says(context: CheckContext, switch: Service, *, moving: bool, already: bool) -> None:
     response = switch(data=moving)
     context.expect(
-        "success is True, even if nothing had to be changed",
+        "`success` is True, even if the call changes nothing",
         expected=True,
         actual=response.success,
         hints=(
@@ -255,7 +261,7 @@ def _says(context: CheckContext, switch: Service, *, moving: bool, already: bool
         ),
     )
     context.require(
-        'the message contains the word "already" only if nothing had to be changed',
+        'the message contains the word "already" only if the call changes nothing',
         holds=("already" in response.message.lower()) == already and response.message.strip() != "",
         expected='a message with the word "already"' if already else 'a message without the word "already"',
         actual=response.message,

@@ -62,7 +62,7 @@ START = f"""%%writefile {FILE.path}
     "09.6",
     points=2,
     goal=(
-        "Repair exercise3.launch: start the simulator and the driver always, but start "
+        "Repair exercise3.launch: always start the simulator and the driver, but start "
         "spawn_turtle_plus only with addturtle:=true."
     ),
     needs=[f"file:{FILE.path}"],
@@ -116,8 +116,8 @@ _UNREADABLE: Hints = [
     ),
     (
         matches("cannot override arg"),
-        "The <arg> tag gives the argument a fixed value, so the command cannot change this value. Write "
-        "default=, not value=, in the <arg> tag.",
+        "The <arg> tag gives the argument a fixed value, so the command cannot change this value. In "
+        "the <arg> tag, write default= instead of value=.",
     ),
     (
         matches("not a 'bool' type"),
@@ -135,7 +135,7 @@ _UNREADABLE: Hints = [
 
 def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) -> None:
     context.require(
-        "the nodes turtlesim and improved_pubvel_toggle are always started",
+        "roslaunch always starts the nodes turtlesim and improved_pubvel_toggle",
         holds=nodes >= ALWAYS,
         expected=", ".join(sorted(ALWAYS)),
         actual=", ".join(sorted(nodes)),
@@ -147,9 +147,12 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
         ),
     )
     context.require(
-        "spawn_turtle_plus is started only if addturtle is true",
+        "roslaunch starts spawn_turtle_plus only if addturtle is true",
         holds=(f"/{SECOND}" in nodes) == wanted,
-        expected=f"{'with' if wanted else 'without'} /{SECOND} for {argument or 'no argument'}",
+        expected=(
+            f"a list {'with' if wanted else 'without'} /{SECOND}, if the command has "
+            f"{argument or 'no argument'}"
+        ),
         actual=", ".join(sorted(nodes)),
         hints=[
             (
@@ -160,7 +163,7 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
             (
                 (lambda _: not argument),
                 (
-                    "spawn_turtle_plus must not start without an argument. Set the default value of "
+                    "Without an argument, spawn_turtle_plus must not start. Set the default value of "
                     "addturtle to false."
                 ),
             ),
@@ -222,7 +225,7 @@ def _runs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
 
 def _drives_both(context: CheckContext, printed: str, *, holds: bool) -> None:
     context.require(
-        "after the start, turtle1 and MyTurtle both get velocities",
+        "after the start, both turtle1 and MyTurtle receive velocities",
         holds=holds,
         expected="two turtles, each with a driver",
         actual=telling_line(printed),

@@ -65,7 +65,7 @@ if __name__ == "__main__":
         rate.sleep()
 """
 CHANGED = "Change the rate, return the old rate, and refuse impossible rates."
-RATE_GOALS = {CHANGED: 3, "Change only the direction with /toggle_forward.": 1}
+RATE_GOALS = {CHANGED: 3, "In the handler of /toggle_forward, change only the direction of the turtle.": 1}
 
 
 @part(
@@ -132,16 +132,16 @@ def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
                     (
                         ANYTHING,
                         (
-                            "A Rate object cannot change its rate. After a call of /change_rate, create a "
-                            "new Rate object."
+                            "The rate of a Rate object never changes. After a call of /change_rate, "
+                            "create a new Rate object."
                         ),
                     ),
                 ],
             )
     for impossible in (0.0, -slow, 100.5, float("nan")):
-        refuses(context, change, "impossible rates are refused", rate=impossible)
+        refuses(context, change, "/change_rate refuses impossible rates", rate=impossible)
     context.expect(
-        "after a refusal, the rate is the same as before",
+        "after a refused call, the rate is the same as before",
         expected=fast,
         actual=change(rate=fast).before,
         near=1e-6,

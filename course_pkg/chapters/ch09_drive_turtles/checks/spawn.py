@@ -25,15 +25,15 @@ TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
 LIMIT = 5.0  # LIMIT is the time in s for which the student's program waits for a service.
 NO_WAIT = (
     "The program ended before the service started. Wait for the service for at most 5 s (in C++: "
-    "ros::Duration(5), because a plain number is a time in ms)."
+    "ros::Duration(5), because roscpp reads a plain number as milliseconds)."
 )
 # If a program ends within this time in s, the hint says that the program does not wait for the service.
 NO_WAIT_ENDS = 1.0
 WITHOUT_A_WAIT = 0.5  # A program that does not wait ends within this time in s.
 LATE = 2.5  # LATE is the additional time in s that the program may need to start and to end.
 EARLY = 3.0  # If a program ends within this time in s, it has not waited for 5 s.
-REFUSED = "a second MyTurtle is refused, and the exit status is 1"
-GIVES_UP = "without /spawn, the program gives up after 5 s with the exit status 1"
+REFUSED = "if the simulator refuses a second MyTurtle, the exit status is 1"
+GIVES_UP = "without /spawn, the program ends after 5 s with exit status 1"
 
 START = f"""%%writefile {PROGRAM.path}
 #!/usr/bin/env python3
@@ -128,7 +128,7 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
         else _why_no_call(done),
     )
     context.expect(
-        "the request is x = 3, y = 3, theta = 0 and the name MyTurtle",
+        "the request contains x = 3, y = 3, theta = 0 and the name MyTurtle",
         expected=TURTLE,
         actual=requests[0],
         near=1e-6,
@@ -148,7 +148,7 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
                 ANYTHING,
                 (
                     "The numbers in the request are wrong. Compare the order of your numbers with the "
-                    "fields in `rossrv show turtlesim/Spawn`."
+                    "order of the fields that `rossrv show turtlesim/Spawn` prints."
                 ),
             ),
         ],
@@ -164,7 +164,7 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
         ),
     )
     context.require(
-        "after the call, the program ends with the exit status 0",
+        "after the call, the program ends with exit status 0",
         holds=done.status == 0,
         expected="exit status 0",
         actual=outcome(done),
@@ -186,7 +186,10 @@ def _why_no_call(done: Finished) -> str:
             "program waits."
         )
     if done.status == 0:
-        return "The program ended without a request to /spawn. Call the service after the wait."
+        return (
+            "The program ended without a request to /spawn. Call the service after your program has "
+            "waited for it."
+        )
     return why_it_ended(done)
 
 
@@ -212,12 +215,12 @@ def _spawns_in_the_simulator(context: CheckContext, world: World) -> None:
         "MyTurtle is in the simulator, at (3, 3)",
         holds=bool(poses) and [poses[0].fields[key] for key in ("x", "y")] == [3.0, 3.0],
         expected="a pose of MyTurtle",
-        actual="no such pose",
+        actual="no pose of MyTurtle at this position",
     )
 
 
 def _is_refused(context: CheckContext, world: World) -> None:
-    refuses = _answer(world, Refuse("there is a turtle MyTurtle"))
+    refuses = _answer(world, Refuse("there is already a turtle MyTurtle"))
     server = context.serve(world.name("spawn"), SPAWN, refuses)
     with world.run() as running:
         done = world.ends(running, STARTING)
@@ -249,15 +252,18 @@ def _gives_up(context: CheckContext, world: World, running: Running, began: floa
     context.require(
         GIVES_UP,
         holds=done.status is not None,
-        expected="an end after 5 s",
-        actual="a program that still waits after 7 s",
-        hints="The program waits too long, or without a limit. Set the timeout of the wait to 5 s.",
+        expected="the program ends after 5 s",
+        actual="the program still waits after 7 s",
+        hints=(
+            "The program waits too long for the service, or without a time limit. Set the timeout of "
+            "the wait to 5 s."
+        ),
     )
     context.require(
         GIVES_UP,
         holds=took >= EARLY,
-        expected="an end after 5 s",
-        actual=f"an end after {took:.0f} s",
+        expected="the program ends after 5 s",
+        actual=f"the program ended after {took:.0f} s",
         hints=NO_WAIT
         if took < NO_WAIT_ENDS
         else (

@@ -33,8 +33,8 @@ TOGGLED: Hints = [
     (
         (1.0, 1.0),
         (
-            "The turtle turns, but it also moves ahead. Create a new message in each round of the loop, "
-            "or set both linear.x and angular.z each time."
+            "The turtle turns, but it also moves ahead. Create a new message in each round of the "
+            "loop, or set both linear.x and angular.z in each round."
         ),
     ),
     (ANYTHING, "The velocity is wrong while the turtle turns. Set linear.x to 0.0 and angular.z to 1.0."),
@@ -71,7 +71,7 @@ if __name__ == "__main__":
         publisher.publish(message)
         rate.sleep()
 """
-TOGGLED_BY_CALL = "Go straight ahead, and change the direction with each call."
+TOGGLED_BY_CALL = "Go straight ahead before the first call, and change the direction in each call."
 TOGGLE_GOALS = {TOGGLED_BY_CALL: 3, "Publish twice per second, and move the turtle.": 1}
 
 
@@ -79,8 +79,8 @@ TOGGLE_GOALS = {TOGGLED_BY_CALL: 3, "Publish twice per second, and move the turt
     "09.2",
     points=2,
     goal=(
-        "Add the service /toggle_forward to pubvel_toggle.py: each call changes between driving straight "
-        "ahead and turning."
+        "Add the service /toggle_forward to pubvel_toggle.py: one call makes the turtle turn, and the "
+        "next call makes it go straight ahead."
     ),
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,

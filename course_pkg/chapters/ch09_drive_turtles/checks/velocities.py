@@ -42,8 +42,8 @@ class Stream:
             hints=[
                 (
                     "no publisher",
-                    "The node does not publish on /turtle1/cmd_vel. Compare the name of your topic with this "
-                    "name.",
+                    "The node does not publish on /turtle1/cmd_vel. Compare this name with the name of "
+                    "the topic in your program.",
                 )
             ],
         )

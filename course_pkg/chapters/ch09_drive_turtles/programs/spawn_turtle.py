@@ -28,8 +28,8 @@ def spawn_or_exit() -> None:
         response = rospy.ServiceProxy("spawn", Spawn)(*PLACE, NAME)
     except rospy.ServiceException as error:
         sys.exit(
-            f"{NAME} was not spawned: {error}. Does a turtle of this name exist already? "
-            "Read the simulator's log."
+            f"{NAME} was not spawned: {error}. Is there already a turtle with this name? Read the "
+            "simulator's log."
         )
     rospy.loginfo("Spawned a turtle named %s", response.name)
 
@@ -39,4 +39,4 @@ def require(service: str) -> None:
     try:
         rospy.wait_for_service(service, TIMEOUT)
     except rospy.ROSException as error:
-        sys.exit(f"Gave up after {TIMEOUT:g} s: {error}")
+        sys.exit(f"Ended after {TIMEOUT:g} s: {error}")

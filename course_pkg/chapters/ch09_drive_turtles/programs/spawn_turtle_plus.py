@@ -26,7 +26,7 @@ def main() -> None:
         rospy.ServiceProxy("toggle_forward", Empty)()
         rospy.ServiceProxy("change_speed", ChangeSpeed)(SPEED)
     except rospy.ServiceException as error:
-        sys.exit(f"turtle1's driver refused: {error}")
+        sys.exit(f"the driver of turtle1 refused the call: {error}")
     publisher = rospy.Publisher(f"{NAME}/cmd_vel", Twist, queue_size=1)
     rospy.Subscriber("turtle1/cmd_vel", Twist, publisher.publish, queue_size=1)
     rospy.spin()

@@ -74,16 +74,16 @@ NOT_WOKEN = (
     "notify() after you have changed the number of items."
 )
 TOO_MANY = (
-    "The handler of /take returned an item although the basket was empty. After a thread has woken "
-    "up, check again whether an item is there: use a `while` loop or `wait_for`."
+    "The handler of /take returned an item although the basket was empty. After a thread has woken up, "
+    "check again whether the basket contains an item: use a `while` loop or `wait_for`."
 )
 TOO_EARLY = (
-    "The handler of /take returned before its time limit was over. If a thread wakes up and no item "
-    "is there, let the thread wait again for the remaining time."
+    "The handler of /take returned before its time limit was over. If a thread wakes up and the basket "
+    "is empty, let the thread wait again for the remaining time."
 )
 FULL = (
-    "The basket did not accept an item, but it has no maximum number of items. Add one item in each call "
-    "of /put."
+    "The basket did not accept an item, but a basket has no maximum number of items. Add one item in "
+    "each call of /put."
 )
 SHARED = (
     "Two baskets share their items, so the second basket was not empty at first. Create the items in "
@@ -114,8 +114,8 @@ ERRORS = [
     "10.3",
     points=3,
     goal=(
-        "Write a basket with /put and /take. A call of /take waits for an item, but not longer than the "
-        "time limit."
+        "Write a basket with the services /put and /take. A call of /take waits for an item, but not "
+        "longer than the time limit."
     ),
     needs=["Basket"],
     deadline=45.0,
@@ -128,7 +128,7 @@ def wait_for_another_call(context: CheckContext) -> None:
     *names, another = [f"/{context.random.word()}" for _ in range(3)]
     context.prepare(KERNEL_CODE)
     opened = context.run("checked_basket.open", Its("Basket"), LIMIT, *names, worded=f"Basket({LIMIT:g})")
-    context.require("a Basket can be created from a limit", holds=not opened.error, actual=opened.error)
+    context.require("a Basket can be created with a time limit", holds=not opened.error, actual=opened.error)
     put = context.service(names[0], TRIGGER, hints=[(matches("TimesUp"), HELD), *ERRORS])
     take = context.service(
         names[1], TRIGGER, hints=[(matches("TimesUp"), FOREVER), *ERRORS], timeout=2 * LIMIT + SLACK
@@ -156,7 +156,7 @@ def _puts_and_takes(context: CheckContext, put: Service, take: Service) -> None:
         _answer(context, "/put adds one to the number of items", response, True, str(number))
     for number in range(count - 1, -1, -1):
         response = take()
-        _at_once(context, "an item that is in the basket is taken immediately", take.took)
+        _at_once(context, "if the basket contains an item, /take returns immediately", take.took)
         _answer(context, "/take subtracts one from the number of items", response, True, str(number))
 
 
@@ -168,7 +168,7 @@ def _shares_nothing(context: CheckContext, another: str, put: Service, take: Ser
     put()
     worded = f"Basket({LIMIT:g})"
     opened = context.run("checked_basket.open_another", Its("Basket"), LIMIT, another, worded=worded)
-    context.require("a Basket can be created from a limit", holds=not opened.error, actual=opened.error)
+    context.require("a Basket can be created with a time limit", holds=not opened.error, actual=opened.error)
     response = context.service(another, TRIGGER, hints=ERRORS)()
     context.expect(
         "/put adds one to the number of items", expected="1", actual=response.message, hints=SHARED
@@ -223,7 +223,7 @@ def _waits_for_an_item(context: CheckContext, put: Service, take: Service) -> No
     response = take()
     waking.join()
     context.require(
-        "an empty basket is reported when the limit is over",
+        "if the basket stays empty, /take reports this when the time limit is over",
         holds=response.success or LIMIT - 0.1 <= take.took < LIMIT + SLACK,
         expected=f"a response after {LIMIT:g} s",
         actual=f"a response after {take.took:.1f} s",
@@ -236,7 +236,13 @@ def _waits_for_an_item(context: CheckContext, put: Service, take: Service) -> No
         actual="an item",
         hints=TOO_MANY,
     )
-    _answer(context, "an empty basket is reported when the limit is over", response, False, "empty")
+    _answer(
+        context,
+        "if the basket stays empty, /take reports this when the time limit is over",
+        response,
+        False,
+        "empty",
+    )
     later = Timer(LATER, put)
     later.start()
     response = take()
@@ -249,7 +255,7 @@ def _waits_for_an_item(context: CheckContext, put: Service, take: Service) -> No
         hints=HELD,
     )
     context.require(
-        "an item that comes wakes a waiting call",
+        "a waiting call of /take returns when an item comes",
         holds=response.success and take.took < LIMIT - 0.2,
         expected=f"a response {LATER:g} s after the call",
         actual=f"success={response.success} after {take.took:.1f} s",
@@ -271,7 +277,7 @@ def _shares_the_items(context: CheckContext, put: Service, take: Service) -> Non
     _each_item_once(context, replies, items)
     late = max(reply.took for reply in replies)
     context.require(
-        "no call takes longer than the limit",
+        "no call takes longer than the time limit",
         holds=late < LIMIT + SLACK,
         expected=f"a response after {LIMIT:g} s at the latest",
         actual=f"a response after {late:.1f} s",

@@ -123,8 +123,9 @@ NOT_TOGETHER: Hints = [
     (
         ANYTHING,
         (
-            "Some calls began only after other calls had returned. Use one thread for each call (a pool "
-            "needs `count` threads), and start all threads before you wait for the first thread."
+            "Some calls began only after other calls had returned. Use one thread for each call (a "
+            "thread pool needs `count` threads), and start all threads before you wait for the first "
+            "thread."
         ),
     ),
 ]
@@ -201,8 +202,8 @@ def _called(context: CheckContext, count: int, gate: Gate) -> None:
             (
                 0,
                 (
-                    "The service was not called. Call the service `name` in each thread, and write "
-                    "`args` as a tuple, such as (name,)."
+                    "The service was not called. Call the service in each thread, and pass a tuple "
+                    "such as (name,) as the argument `args` of Thread."
                 ),
             ),
             (
@@ -251,7 +252,7 @@ def _shares_no_proxy(context: CheckContext, proxies: Proxies, server: ScriptedSe
 def _returned(context: CheckContext, words: list[str], found: Json) -> None:
     items = found if isinstance(found, list) else []
     context.require(
-        "a list with the message of each response is returned",
+        "call_at_once() returns a list with the message of each response",
         holds=isinstance(found, list) and sorted(map(str, items)) == sorted(words),
         expected=f"the {len(words)} messages, in any order",
         actual=found,

@@ -33,8 +33,8 @@ ATTEMPTS = 3
 
 SINCE_WHEN = "the field `arrived` is the time at which the customer came"
 AT_ONCE = (
-    "A customer was there before the call, but the handler waited. First check for a customer, and wait "
-    "only if none is there: `wait_for` does both."
+    "A customer was there before the call, but the handler waited. First check for a customer, and "
+    "wait only if no customer is there: `wait_for` does both."
 )
 BUSY = (
     "Your loop has no pause, so it checks for a customer thousands of times per second. Use "
@@ -85,7 +85,7 @@ ERRORS = [
         matches("not callable"),
         (
             "The argument of `wait_for` has to be a function, because `wait_for` calls this function "
-            "after each change. Write a lambda, for example."
+            "after each change. For example, pass a lambda."
         ),
     ),
     (matches("TimesUp"), FOREVER),
@@ -122,7 +122,7 @@ def wait_for_a_customer(context: CheckContext) -> None:
     counter, name = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(A_SHOP)
     opened = context.run("shop.open", Its("handle_detect"), counter, name, worded="rospy.Service(...)")
-    context.require("a service can use the handler", holds=not opened.error, actual=opened.error)
+    context.require("a service can call the handler", holds=not opened.error, actual=opened.error)
     try:
         shop = _Shop(context, counter)
         left = (lambda error: "NoneType" in error and context.read("shop.watch.left"), LEFT)
@@ -174,7 +174,7 @@ def _nobody(context: CheckContext, detect: Service) -> None:
         response = detect(after=0, patience=patience)
         _no(context, response)
         context.require(
-            "without a customer, the response comes when the time is over",
+            "without a customer, the handler responds after request.patience seconds",
             holds=patience - 0.1 <= detect.took < patience + SLACK,
             expected=f"a response after {patience:g} s",
             actual=f"a response after {detect.took:.1f} s",
@@ -192,7 +192,7 @@ def _nobody(context: CheckContext, detect: Service) -> None:
 
 def _no(context: CheckContext, response: Message) -> None:
     context.expect(
-        "without a customer, detected is False, and the other fields are 0",
+        "without a customer, `detected` is False, and the other fields are 0",
         expected=[False, 0, 0.0],
         actual=[response.detected, response.number, response.arrived.to_sec()],
         hints=[
@@ -217,12 +217,14 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
     shop.await_sight(1)
     response = detect(after=0, patience=PATIENCE)
     _found(context, detect, response, known)
-    _at_once(context, "a customer who is already there is found immediately", detect.took, hint=AT_ONCE)
+    _at_once(
+        context, "if a customer is already there, the handler responds immediately", detect.took, hint=AT_ONCE
+    )
     again = detect(after=0, patience=0.0)
     context.require(
-        "a customer who is there is found with patience 0, too",
+        "with patience 0, the handler finds a customer who is already there",
         holds=again.detected,
-        expected="detected with patience 0",
+        expected="a detected customer with patience 0",
         actual="not detected",
         hints=(
             "The handler did not find a customer who was already there. If request.patience is 0, do "
@@ -234,13 +236,13 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
     shop.later(LATER, coming)
     response = detect(after=known, patience=PATIENCE)
     context.require(
-        "a customer up to `after` is not returned",
+        "the handler returns no customer with a number up to `after`",
         holds=response.number != known,
-        expected=f"a customer above {known}",
+        expected=f"a customer with a number above {known}",
         actual=known,
         hints=(
-            "The handler returned a customer who is already known to the client. Pass request.after "
-            "to watch.next(), which then returns only higher numbers."
+            "The handler returned a customer who is already known to the client. Pass request.after to "
+            "watch.next(), which then returns only customers with higher numbers."
         ),
     )
     _found(context, detect, response, coming)
@@ -252,7 +254,9 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
         "if a customer comes, the handler responds immediately",
         holds=not rarely,
         expected="a thread that waits for a notification",
-        actual=f"fewer than {SELDOM} calls of watch.next() in {LONG:g} s, and no wait between them",
+        actual=(
+            f"fewer than {SELDOM} calls of watch.next() in {LONG:g} s, and no call of wait() between them"
+        ),
         hints=RARELY,
     )
     for number in range(coming + 1, coming + ATTEMPTS):
@@ -265,7 +269,7 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
         "if a customer comes, the handler responds immediately",
         holds=late < PROMPT,
         expected="a thread that waits for a notification",
-        actual=f"a response {late:.1f} s after the customer",
+        actual=f"a response {late:.1f} s after the arrival of the customer",
         hints=RARELY,
     )
 
@@ -276,8 +280,8 @@ def _same_time(context: CheckContext, response: Message, again: Message) -> None
     context.require(
         SINCE_WHEN,
         holds=difference == 0,
-        expected="0 s between the times in two responses",
-        actual=f"{difference:.4f} s",
+        expected="the same time in both responses",
+        actual=f"a difference of {difference:.4f} s",
         hints=(
             "Two calls for the same customer returned different times. Return customer.arrived, the "
             "time at which the customer was first seen."
@@ -287,7 +291,7 @@ def _same_time(context: CheckContext, response: Message, again: Message) -> None
 
 def _found(context: CheckContext, detect: Service, response: Message, number: int) -> None:
     context.require(
-        "a customer who is there is detected",
+        "the handler detects a customer who is there",
         holds=response.detected,
         expected=f"detected, and the number {number}",
         actual=response,
@@ -331,7 +335,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
     *vain, one, two, three = detect.at_once([in_vain] * 2 + [waiting] * 3)
     replies = [one, two, three]
     context.expect(
-        "every waiting client gets the customer",
+        "every waiting client gets the number of the customer",
         expected=[coming] * 3,
         actual=[reply.response.number for reply in replies],
     )
@@ -345,7 +349,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
     for reply in vain:
         _no(context, reply.response)
         context.require(
-            "without a customer, the response comes when the time is over",
+            "without a customer, the handler responds after request.patience seconds",
             holds=patience - 0.1 <= reply.took < patience + SLACK,
             expected=f"a response after {patience:g} s",
             actual=f"a response after {reply.took:.1f} s",

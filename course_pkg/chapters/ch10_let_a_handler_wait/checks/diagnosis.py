@@ -16,8 +16,8 @@ RIGHT = {
 }
 DECISIVE = {
     "A": (
-        "There is a circle of waiting threads: the last thread waits for a lock that the first "
-        "thread holds. Follow the calls from thread to thread."
+        "There is a circle of waiting threads: the last thread waits for a lock that the first thread "
+        "holds. For each thread, find the lock that it holds and the lock for which it waits."
     ),
     "B": "Each of the two threads holds the lock of one shelf and waits for the lock of the other shelf.",
     "C": "The clients have ended, but the number of waiting threads still grows.",
@@ -50,7 +50,7 @@ CASES = Cases(
 )
 
 
-@part("10.7", points=2, goal="Find the cause of each of six observations.", needs=["causes"])
+@part("10.7", points=2, goal="Find the cause of each of the six observations.", needs=["causes"])
 def find_the_cause(context: CheckContext) -> None:
     """Compare the student's choice for each case with the right cause."""
     compare_cases(context, "causes", CASES)

@@ -32,8 +32,8 @@ LOCKED = (
     "before you call the till's service."
 )
 SERIAL = (
-    "The till had only a few calls at the same time, because your handler holds a lock or a semaphore during "
-    "the call. Release it before you call the till's service."
+    "The till received only a few calls at the same time, because your handler holds a lock or a "
+    "semaphore during the call. Release the lock or semaphore before you call the till's service."
 )
 STUCK = (
     "A client waits forever, because a lock was not released. Use `with`, which releases the lock "
@@ -41,8 +41,8 @@ STUCK = (
 )
 ERRORS = [*SHELF_ERRORS, (matches("TimesUp"), STUCK)]
 TORN = (
-    "Between a read of the shelf and the write that followed, another thread changed the shelf. Hold the "
-    "same lock while you read, decide and write. To put a thing back, read the shelf again, and add 1."
+    "Another thread changed the shelf between your call of read() and your call of write(). Hold the "
+    "same lock during both calls, and also read the shelf again before you put a thing back."
 )
 ANOTHER_NUMBER = (
     "The number on the shelf is different from the number that /left returns. Use the methods "
@@ -157,7 +157,7 @@ def no_lock_across_a_call(context: CheckContext) -> None:
     context.prepare(KERNEL_CODE)
     context.serve(charge, CHARGE, till)
     services = {buy: "handle_buy", left: "handle_left"}
-    worded = f"Shop(shelf, {cents}, the till) with {count} on the shelf"
+    worded = f"Shop(shelf, {cents}, the till) with {count} things on the shelf"
     opened = _opened(context, shelf, services, cents, charge, worded)
     context.require(
         "a Shop can be created from a shelf, a price and the name of a till",
@@ -201,7 +201,7 @@ def _has_no_till(context: CheckContext, cents: int) -> None:
         failed = [(matches("TimesUp"), NO_TILL), (matches("process request"), NOT_CAUGHT)]
         response = context.service(buy, TRIGGER, hints=failed, timeout=ABSENT)()
         context.require(
-            "nothing is sold if the call of the till fails",
+            "the shop sells nothing if the call of the till fails",
             holds=not response.success and bool(response.message),
             expected="success=False and a message, because the till does not run",
             actual=response,
@@ -211,7 +211,7 @@ def _has_no_till(context: CheckContext, cents: int) -> None:
             ),
         )
         context.expect(
-            "a thing that was not paid for is on the shelf again",
+            "after a failed payment, the thing is on the shelf again",
             expected=str(count),
             actual=context.service(left, TRIGGER, hints=ERRORS, timeout=ONE)().message,
             hints=(
@@ -257,13 +257,13 @@ NOT_SOLD: Hints = [
 def _sells(context: CheckContext, buying: Service, till: Till, cents: int, count: int) -> None:
     response = buying()
     context.expect(
-        "the till is called once, with the price",
+        "the shop calls the till once, with the price",
         expected=[cents],
         actual=till.charged,
         hints=NOT_CHARGED_ONCE,
     )
     context.require(
-        "the charge has a request_id",
+        "the request to the till contains a request_id",
         holds=bool(till.ids[0]),
         expected="a request_id",
         actual="an empty value",
@@ -272,24 +272,24 @@ def _sells(context: CheckContext, buying: Service, till: Till, cents: int, count
     context.require(
         "/left responds while the till is working",
         holds=till.answers[0] not in ("CallTimeout",),
-        expected="a response of /left while the till is working",
+        expected="a response of /left before the till responds",
         actual="no response within 2 s",
         hints=LOCKED,
     )
     context.expect(
-        "a thing that is being paid for is not on the shelf",
+        "during a payment, the thing is not on the shelf",
         expected=str(count - 1),
         actual=till.answers[0],
         hints=_not_reserved(count),
     )
     context.expect(
-        "a thing that is being paid for is not on the shelf",
+        "during a payment, the thing is not on the shelf",
         expected=count - 1,
         actual=till.on_shelf[0],
         hints=ANOTHER_NUMBER,
     )
     context.expect(
-        "a client that has paid gets the receipt",
+        "a client that has paid gets the number of the receipt",
         expected=[True, str(till._first + 1)],
         actual=[response.success, response.message],
         hints=NOT_SOLD,
@@ -303,7 +303,7 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
         response = buying()
         asked = len(till.ids) - before
         context.expect(
-            "nothing is sold if the call of the till fails",
+            "the shop sells nothing if the call of the till fails",
             expected=False,
             actual=response.success,
             hints=(
@@ -317,7 +317,7 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
             ),
         )
         context.require(
-            "nothing is sold if the call of the till fails",
+            "the shop sells nothing if the call of the till fails",
             holds=bool(response.message),
             expected="a message with the reason",
             actual="an empty value",
@@ -327,7 +327,7 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
             ),
         )
         context.expect(
-            "a thing that was not paid for is on the shelf again",
+            "after a failed payment, the thing is on the shelf again",
             expected=str(count),
             actual=looking().message,
             hints=[
@@ -352,21 +352,21 @@ def _sells_to_fifty(
     replies = [reply.response for reply in buying.at_once([{}] * CALLERS)]
     sold = sum(reply.success for reply in replies)
     context.expect(
-        f"{CALLERS} clients at the same time: as many charges as sales",
+        f"{CALLERS} clients at the same time: the till charges once for each sale",
         expected=sold,
         actual=len(till.charged),
     )
     context.require(
-        f"{CALLERS} clients at the same time: as many charges as sales",
+        f"{CALLERS} clients at the same time: the till charges once for each sale",
         holds=till.together >= till.crowd,
         expected="all clients can pay at the same time",
-        actual=f"at most {till.together} at the same time",
+        actual=f"at most {till.together} clients at the same time",
         hints=SERIAL,
     )
     context.require(
         f"{CALLERS} clients at the same time: each purchase has its own request_id",
         holds=len(set(till.ids)) == len(till.ids),
-        expected="as many ids as purchases",
+        expected="a different id for each purchase",
         actual="the same id twice",
         hints=(
             "Two purchases have the same request_id. In the handler, create a new request_id for each call."
@@ -378,20 +378,20 @@ def _sells_to_fifty(
         expected="ids that no other program creates",
         actual=", ".join(till.ids[:3]),
         hints=(
-            "The ids come from a counter, and another program, or this program after a restart, creates the "
-            "same ids. Create each id with uuid.uuid4()."
+            "The ids come from a counter, so another program, or this program after a restart, can "
+            "create the same ids. Create each id with uuid.uuid4()."
         ),
     )
     refusals = [reply.message for reply in replies if not reply.success and reply.message != "sold out"]
     _sells_no_more_than_there_is(context, sold, count, refusals, 5 - len(till.acts))
     context.expect(
-        f"{CALLERS} clients at the same time: the number of things left is right",
+        f"{CALLERS} clients at the same time: the number of things on the shelf is right",
         expected=str(count - sold),
         actual=looking().message,
         hints=TORN,
     )
     context.expect(
-        f"{CALLERS} clients at the same time: the number of things left is right",
+        f"{CALLERS} clients at the same time: the number of things on the shelf is right",
         expected=count - sold,
         actual=shelf.things,
         hints=ANOTHER_NUMBER,

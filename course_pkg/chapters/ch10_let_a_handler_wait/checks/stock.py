@@ -94,9 +94,9 @@ def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: floa
         Its("Stock"),
         Its("checked_shelf"),
         services,
-        worded=f"Stock(shelf) with {shelf.things} on it",
+        worded=f"Stock(shelf) with {shelf.things} things on the shelf",
     )
-    context.require("a Stock can be created from a shelf", holds=not opened.error, actual=opened.error)
+    context.require("a Stock can be created with a shelf", holds=not opened.error, actual=opened.error)
     return context.service(name, TRIGGER, hints=ERRORS, timeout=timeout)
 
 
@@ -117,7 +117,7 @@ def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
     """Take a thing; `left` is the number of things after this call, or None if the shelf was empty."""
     seen = take()
     context.expect(
-        "the field `success` is True only if something was left",
+        "the field `success` is True only if the shelf was not empty",
         expected=left is not None,
         actual=seen.success,
         hints=[
@@ -128,7 +128,13 @@ def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
                     "you sell a thing."
                 ),
             ),
-            (False, "A thing was there, but `success` has its default value, False. Set `success` to True."),
+            (
+                False,
+                (
+                    "The shelf was not empty, but `success` has its default value, False. Set `success` to "
+                    "True."
+                ),
+            ),
         ],
     )
     context.expect(
@@ -161,8 +167,8 @@ def _wrong_number_sold(count: int) -> Hints:
         (
             (lambda actual: actual < count),
             (
-                "Some things were left, but a client got none of them. If another thread holds the "
-                "lock, let the handler wait for the lock."
+                "The shelf was not empty, but a client got nothing. If another thread holds the lock, "
+                "let the handler wait for the lock."
             ),
         ),
     ]
@@ -174,21 +180,21 @@ def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count:
     sold = [reply.message for reply in replies if reply.success]
     if not shelf.together:
         context.fail(
-            f"{CALLERS} clients at the same time: all things are sold, and not more",
-            expected="several handlers at the same time",
-            actual="one handler after the other",
+            f"{CALLERS} clients at the same time: the number of sales is equal to the number of things",
+            expected="several handlers run at the same time",
+            actual="the handlers run one after the other",
             hint=ONE_BY_ONE,
         )
     context.expect(
-        f"{CALLERS} clients at the same time: all things are sold, and not more",
+        f"{CALLERS} clients at the same time: the number of sales is equal to the number of things",
         expected=count,
         actual=len(sold),
         hints=_wrong_number_sold(count),
     )
     context.require(
-        f"{CALLERS} clients at the same time: each of them gets another thing",
+        f"{CALLERS} clients at the same time: each client gets a different thing",
         holds=sorted(sold) == sorted(map(str, range(count))),
-        expected="each number of things left, once",
+        expected="each number of remaining things, exactly once",
         actual=", ".join(sorted({message for message in sold if sold.count(message) > 1})),
         hints=REREAD,
     )

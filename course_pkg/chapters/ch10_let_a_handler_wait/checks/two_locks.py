@@ -76,7 +76,7 @@ class CheckedLock:
             if limited:
                 raise Deadlock("two threads wait for each other")
             if time.monotonic() > self._begun + self._limit:
-                raise Deadlock("a thread tries again and again, in vain")
+                raise Deadlock("a thread tries again and again without success")
             return False
         self.owner = threading.get_ident()
         self._pair.meet()
@@ -197,7 +197,7 @@ class CheckedPair:
     @property
     def error(self) -> str:
         """One of the recorded errors, or ""."""
-        return min(self.errors, key=lambda error: "in vain" not in error, default="")
+        return min(self.errors, key=lambda error: "without success" not in error, default="")
 
     def held(self) -> int:
         """Return the number of locks that the current thread has acquired."""
@@ -224,7 +224,7 @@ ERRORS = [
         "exactly once.",
     ),
     (
-        matches("TimesUp|in vain"),
+        matches("TimesUp|without success"),
         (
             "The function did not return. If your code acquires the second lock in a loop, "
             "release the first lock before each new attempt."
@@ -250,15 +250,15 @@ CROSSED = (
     "Acquire the locks in the same order in every call, for example by the shelves' numbers."
 )
 UNLOCKED = (
-    "The function changed a count while it did not hold both locks, so another thread can read a wrong "
-    "total. Hold both locks while you read and write the counts."
+    "The function changed a count while it did not hold both locks, so another thread can read two "
+    "counts with a wrong sum. Hold both locks while you read and write the counts."
 )
 
 UNLOCKED_READ = (
     "The function read a count before it held both locks, so another thread can change this count. "
     "First acquire both locks, and then read the counts."
 )
-MOVED = "Move a thing in one thread, but do not move a thing from an empty shelf."
+MOVED = "Move one thing from the source to the target, but not from an empty shelf."
 
 
 @part(
@@ -295,7 +295,7 @@ def move_without_deadlock(context: CheckContext) -> None:
         MOVES,
         within=RUN,
         hints=ERRORS,
-        worded="move(), four threads at the same time",
+        worded="each call of move() in four threads",
     ).returned()
     context.require(
         "four threads at the same time: every call returns",
@@ -315,8 +315,8 @@ def move_without_deadlock(context: CheckContext) -> None:
         expected=THREADS * MOVES,
         actual=pair.results.count(True),
         hints=(
-            "A call moved nothing, although the shelf was not empty. If another thread holds a lock, wait "
-            "for the lock. Acquire the two locks in the order of their numbers."
+            "A call moved nothing, although the shelf was not empty. If another thread holds a lock, "
+            "wait for the lock, and acquire the two locks in the order of their numbers."
         ),
     )
     _both_locks(context, pair)
@@ -334,7 +334,7 @@ def _moves_one(
         "checked_move", *its, source, 1 - source, hints=ERRORS, worded="move(source, target)"
     )
     context.expect(
-        "True for a move, and False for an empty source",
+        "move() returns True after a move, and False for an empty source",
         expected=possible,
         actual=result.returned(),
         hints=[
@@ -356,7 +356,7 @@ def _moves_one(
         ],
     )
     context.expect(
-        "one thing goes from the source to the target",
+        "one thing moves from the source to the target",
         expected=counts,
         actual=pair.counts,
         hints=[

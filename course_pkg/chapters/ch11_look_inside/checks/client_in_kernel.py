@@ -71,7 +71,7 @@ class Client:
         self._measured = 0
         context.prepare(KERNEL_CODE)
         made = context.run("make_client", Its(kind), name, worded=f"{kind}(service)")
-        context.require("a client object can be created", holds=made.returned() is None)
+        context.require("an object of your class can be created", holds=made.returned() is None)
 
     def measure(self, hints: Hints) -> Result:
         """Call the method measure with random sides; every second call repeats the previous sides.

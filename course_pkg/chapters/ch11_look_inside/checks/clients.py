@@ -48,7 +48,7 @@ REFUSED = (
         "connection broke."
     ),
 )
-ONE_FOR_ALL = "Use one connection for all calls, even after a refusal."
+ONE_FOR_ALL = "Use one connection for all calls, even after a refused call."
 STORED = "Look up the address once, and use the stored address for all calls."
 
 
@@ -74,34 +74,37 @@ def persistent_client(context: CheckContext) -> None:
     server = context.serve(name, GEOMETRY, lambda _: _next_act(acts))
     client = Client(context, "Keeper", name)
     for volume in volumes[:3]:
-        _measures(context, client, "the response is returned", volume)
-    _sends_the_sides(context, client, server, "the response is returned")
+        _measures(context, client, "measure() returns the response", volume)
+    _sends_the_sides(context, client, server, "measure() returns the response")
     _one_connection(context, server, "the calls share one connection")
     acts.insert(0, Refuse("not this box"))
     _reports_a_refusal(context, client, server, *REFUSED)
     acts.pop(0)
-    _measures(context, client, "the connection still works after a refusal", volumes[3])
-    _one_connection(context, server, "after a refusal, the client uses the same connection")
+    _measures(context, client, "after a refused call, the connection still works", volumes[3])
+    _one_connection(context, server, "after a refused call, the client uses the same connection")
     context.fulfilled(ONE_FOR_ALL)
     acts.insert(0, HangUp())
-    _measures(context, client, "a broken connection is replaced", volumes[4])
+    _measures(context, client, "the client replaces a broken connection", volumes[4])
     _breaks_twice(context, client, server)
     acts.append({"volume": volumes[6]})
-    _measures(context, client, "a broken connection is replaced", volumes[6])
-    acts[:] = [HangUp(), Refuse("not any more")]
+    _measures(context, client, "the client replaces a broken connection", volumes[6])
+    acts[:] = [HangUp(), Refuse("the second call failed")]
     client.measure(ERRORS).raised(
-        "a broken connection is replaced", "ServiceException", saying="not any more", hints=FIRST_ERROR
+        "the client replaces a broken connection",
+        "ServiceException",
+        saying="the second call failed",
+        hints=FIRST_ERROR,
     )
     acts.clear()
     server.leave()
     _reports_a_missing_server(context, client)
     moved = context.serve(name, GEOMETRY, lambda _: {"volume": volumes[5]})
-    _measures(context, client, "a server that was started again is found", volumes[5])
-    _measures(context, client, "a server that was started again is found", volumes[5])
-    _one_connection(context, moved, "the new connection is also used for all calls")
+    _measures(context, client, "the client finds a server that was started again", volumes[5])
+    _measures(context, client, "the client finds a server that was started again", volumes[5])
+    _one_connection(context, moved, "the client uses the new connection for all further calls")
     for broken in ("break_sending", "break_transport"):
         context.run(broken)
-        _measures(context, client, "a broken connection is replaced", volumes[5])
+        _measures(context, client, "the client replaces a broken connection", volumes[5])
 
 
 def _next_act(acts: list[Act]) -> Act:
@@ -155,8 +158,8 @@ SEVERAL_CONNECTIONS: Hints = [
     (
         ANYTHING,
         (
-            "There was more than one connection. Create the proxy in `__init__`, and create a new proxy only "
-            "after the connection broke: a refusal does not break it."
+            "There was more than one connection. Create the proxy in `__init__`, and create a new "
+            "proxy only after the connection broke: a refused call does not break the connection."
         ),
     ),
 ]
@@ -183,10 +186,13 @@ def _reports_a_refusal(
     """
     before = len(server.requests)
     client.measure(ERRORS).raised(
-        "a refusal is raised", "ServiceException", saying="not this box", hints=swallowed
+        "if the server refuses a call, the client raises the error",
+        "ServiceException",
+        saying="not this box",
+        hints=swallowed,
     )
     context.expect(
-        "after a refusal, there is no second call",
+        "after a refused call, the client does not repeat the call",
         expected=1,
         actual=len(server.requests) - before,
         hints=repeated,
@@ -202,15 +208,16 @@ def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer)
     result = client.measure(ERRORS)
     asked = len(server.requests) - before
     context.require(
-        "a broken connection is replaced",
+        "the client replaces a broken connection",
         holds=asked == 2 and bool(result.error) and not result.error.startswith("TimesUp"),
         expected="2 requests, and the error of the second connection",
-        actual=f"{asked}, and {result.error or 'a value'}",
+        actual=f"{asked} requests, and {result.error or 'a value'}",
         hints=[
             ((lambda _: asked > 2), AGAIN),
             (
                 (lambda _: asked < 2),
-                "Your method did not call the new proxy, or did not store the new proxy in self.",
+                "After the connection broke, your method did not send the request again. Store the new "
+                "proxy in self, and call this proxy once.",
             ),
             (ANYTHING, NOT_MEASURED),
         ],
@@ -220,14 +227,14 @@ def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer)
 def _reports_a_missing_server(context: CheckContext, client: Client) -> None:
     result = client.measure(())
     context.require(
-        "without a server, an error is raised",
+        "without a server, the client raises an error",
         holds=bool(result.error),
         expected="a ServiceException",
         actual=result.error or "a value",
         hints=NOT_MEASURED,
     )
     context.require(
-        "the error comes soon",
+        "without a server, the client does not wait",
         holds=not result.error.startswith("TimesUp"),
         expected="an immediate error",
         actual=result.error,
@@ -297,8 +304,8 @@ def client_with_a_known_address(context: CheckContext) -> None:
     acts = [answers[0], *[answers[1]] * 3, Refuse("not this box")]
     server = context.serve(name, GEOMETRY, lambda _: acts.pop(0) if acts[1:] else acts[0])
     client = Client(context, "Remembering", name)
-    _measures_both(context, client, "area and volume are returned", numbers[0], ())
-    _sends_the_sides(context, client, server, "area and volume are returned")
+    _measures_both(context, client, "measure() returns area and volume", numbers[0], ())
+    _sends_the_sides(context, client, server, "measure() returns area and volume")
     context.absent(name)
     _measures_both(context, client, "a call with a known address needs no master", numbers[1], LOST)
     _keeps_the_address(context, name, client, numbers[1])
@@ -306,12 +313,12 @@ def client_with_a_known_address(context: CheckContext) -> None:
     context.fulfilled(STORED)
     server.leave()
     moved = context.serve(name, GEOMETRY, lambda _: answers[2])
-    _measures_both(context, client, "a server that moved is found again", numbers[2], MOVED)
+    _measures_both(context, client, "the client finds a server that has a new address", numbers[2], MOVED)
     context.absent(name)
     kept = [
         (ANYTHING, "Store every address that you look up: the second address replaces the first address.")
     ]
-    _measures_both(context, client, "the new address is also stored", numbers[2], kept)
+    _measures_both(context, client, "the client also stores the new address", numbers[2], kept)
     _finds_it_after_a_reset(context, name, client, moved, numbers[0])
 
 
@@ -323,7 +330,7 @@ def _finds_it_after_a_reset(
     At the end, stop the server; at the server's registered address, a program then resets each connection.
     """
     former.leave()
-    assertion = "a server that moved is found again"
+    assertion = "the client finds a server that has a new address"
     with ResettingPort(former.uri):
         last = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), numbers, strict=True)))
         _measures_both(context, client, assertion, numbers, RESET)

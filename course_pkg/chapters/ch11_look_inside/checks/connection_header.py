@@ -106,11 +106,11 @@ def packed_header(context: CheckContext) -> None:
     context.prepare(TYPED_HEADER)
     for what, fields in (
         ("two fields", {"service": f"/{word()}", "md5sum": word(32)}),
-        ("a letter outside of ASCII", {"session": "", "robot": f"Jürgen {word(3)}"}),
+        ("a letter that is not in ASCII", {"session": "", "robot": f"Jürgen {word(3)}"}),
         ("no field", {}),
         ("two fields", {"type": f"my/{word()}", "message_definition": word(300)}),
     ):
-        assertion = f"{what}: the bytes are a header of TCPROS"
+        assertion = f"{what}: the function returns a TCPROS header"
         packed, sent, kind = context.run(
             "typed_header", Its("pack_header"), fields, hints=ERRORS, worded="pack_header()"
         ).returned(list)
@@ -168,8 +168,8 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         (
             _packed(fields, total=lambda body: len(body) + 4),
             (
-                "The first length is too large by 4. Count only the bytes after the length, and not the "
-                "4 bytes of the length."
+                "The first length is too large by 4. Count only the bytes after the length, and not "
+                "the 4 bytes of the length itself."
             ),
         ),
         (
@@ -179,13 +179,13 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         (
             _packed(fields, count=len),
             (
-                "A length is a number of bytes, and the letter ü has two bytes. Encode the text before "
-                "you call len()."
+                "A length is a number of bytes, and the letter ü has two bytes in UTF-8. Encode the "
+                "text before you call len()."
             ),
         ),
         (
             _packed(fields, joint=": "),
-            "The text between name and value is wrong. Write only an equals sign, without spaces.",
+            "The text between the name and the value is wrong. Write only an equals sign, without spaces.",
         ),
         (
             _packed(fields, lengths=False),
@@ -200,7 +200,7 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed({name: value for name, value in fields.items() if value}),
-            "A field with an empty value is missing. Write this field, too: its text is the name and the "
+            "A field with an empty value is missing. Write this field, too: write its name and the "
             "equals sign.",
         ),
         (
@@ -256,22 +256,33 @@ def exact_read(context: CheckContext) -> None:
     """
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
-    _receives(context, "bytes that arrive together", [whole], [12])
-    _receives(context, "bytes that arrive in pieces", [whole[:5], whole[5:6], whole[6:]], [12], PAUSE)
-    _receives(context, "exactly `count` bytes, and the rest in the next call", [whole], [4, 8])
+    _receives(context, "receive() returns bytes that arrive together", [whole], [12])
+    _receives(
+        context,
+        "receive() joins bytes that arrive in pieces",
+        [whole[:5], whole[5:6], whole[6:]],
+        [12],
+        PAUSE,
+    )
+    _receives(
+        context,
+        "receive() returns exactly `count` bytes, and the next call returns the rest",
+        [whole],
+        [4, 8],
+    )
     joined = [whole[:5], whole[5:] + following]
-    _receives(context, "no bytes of the next message, even if a piece contains some", joined, [12, 12])
-    _receives(context, "no bytes for a count of 0", [whole], [0, 12])
+    _receives(context, "receive() reads no bytes of the next message", joined, [12, 12])
+    _receives(context, "receive() returns no bytes if `count` is 0", [whole], [0, 12])
     context.fulfilled(RECEIVED)
     with OtherEnd([whole[:7]], closes=True) as other:
         context.prepare(YOUR_END.format(name=other.name))
         context.run("receive", Its("your_end"), 12, within=WITHIN, hints=_receive_errors()).raised(
-            "if the connection ends before the last byte, a ConnectionError is raised",
+            "if the connection ends before the last byte, receive() raises ConnectionError",
             "ConnectionError",
             hints=NOT_RAISED,
         )
         context.require(
-            "if the connection ends before the last byte, a ConnectionError is raised",
+            "if the connection ends before the last byte, receive() raises ConnectionError",
             holds=context.run("is_open", worded="receive()").returned() is True and other.is_open(),
             expected="a socket that is still open",
             actual="a closed socket",
@@ -417,7 +428,7 @@ def _receive_errors(count: int = 1) -> Hints:
         ),
         (
             matches("^(TimeoutError|timeout|BlockingIOError)"),
-            "The function gave up while it waited for the next piece. Wait in recv() without a time limit.",
+            "The function stopped while it waited for the next piece. Call recv() without a time limit.",
         ),
         (
             matches("^(Connection|BrokenPipe)"),

@@ -78,7 +78,7 @@ def totals_of_sessions(context: CheckContext) -> None:
         "node is different.",
     )
     context.expect(
-        "a session continues from another node",
+        "another node can continue a session",
         expected=totals[first] + more,
         actual=answer.total,
         hints=[
@@ -141,8 +141,8 @@ def _wrong_total(amount: int, calls: int, everything: int) -> Hints:
         (
             ANYTHING,
             (
-                "The field `total` is wrong. The total of a session starts at 0, and each call adds its "
-                "amount."
+                "The field `total` is wrong. The total of a session starts at 0, and each call adds "
+                "the amount in its request."
             ),
         ),
     ]
@@ -197,20 +197,20 @@ NOT_REFUSED: Hints = [
     (
         matches("returned None"),
         (
-            "The handler returned None, so the client got an error message of rospy. Raise "
+            "The handler returned None, so rospy sent its own error message to the client. Raise "
             'rospy.ServiceException with a message that contains the word "session".'
         ),
     ),
     (
         ANYTHING,
-        'The error message does not contain the word "session". Write the name of the '
-        "missing field into the message.",
+        'The error message does not contain the word "session". Add the name of the missing field to '
+        "the message.",
     ),
 ]
 
 
 def _refuses_without_a_session(context: CheckContext, kind: ServiceClass) -> None:
-    assertion = "a call without a session is refused with a message that contains the name of the field"
+    assertion = 'the handler refuses a call without a session, and the error message contains "session"'
     for headers in ({}, {"session": ""}):
         try:
             answer = _call(context, kind, 1, headers)

@@ -27,7 +27,7 @@ OTHER_HOST = "127.0.0.2"
 ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", ".call", ".caller"}
 NO_PROXY = (
     "The function calls the service with a proxy. Instead, connect a socket to the address, and send "
-    "the bytes."
+    "the bytes of the request."
 )
 WITHOUT_ROS = """
 import subprocess
@@ -58,7 +58,7 @@ NO_HEADER = (
     "The header has to start with its length, in 4 bytes. Use `pack_header`, which writes this length."
 )
 NO_LENGTH = (
-    "The request has to start with its length, 12, in 4 bytes. Send the length before the three numbers."
+    "The request has to start with its length (12) in 4 bytes. Send the length before the three numbers."
 )
 MISTAKES = {
     "early request": (
@@ -87,8 +87,8 @@ SLOWLY = (
     "including the first byte and the lengths."
 )
 NOT_DECODED = (
-    "The error message contained letters outside of ASCII, and your function could not decode them. Call "
-    "decode() without an argument to use UTF-8."
+    "The error message contained letters that are not in ASCII, and your function could not decode "
+    "them. Call decode() without an argument to use UTF-8."
 )
 BYTES = "The error message is a bytes object, not a string. Convert the bytes with decode()."
 OPEN = (
@@ -100,8 +100,8 @@ UNTIL_THE_END = (
     "and then receive exactly N bytes."
 )
 IN_ORDER = (
-    "The function read the response in a wrong order. After the server's header, read one byte for "
-    "success, 4 bytes for the length N, and N bytes of data."
+    "The function did not read the parts of the response in the right order. After the server's "
+    "header, read one byte for success, 4 bytes for the length N, and N bytes of data."
 )
 ANSWERED = "Return the response, even if its bytes arrive one after the other."
 
@@ -110,7 +110,8 @@ ANSWERED = "Return the response, even if its bytes arrive one after the other."
     "11.3",
     points=4,
     goal=(
-        "Call a geometry service with only a socket. Raise ServiceException if the server refuses the call."
+        "Call a geometry service, and use only a socket. Raise ServiceException if the server refuses "
+        "the call."
     ),
     needs=["ask"],
     deadline=40.0,
@@ -122,7 +123,7 @@ def call_over_a_socket(context: CheckContext) -> None:
         "the function uses only a socket",
         holds=not ROS_CLIENTS & _names(context.source("ask")),
         expected="a socket",
-        actual="a call with a client of ROS",
+        actual="a call with a ROS client, such as rospy.ServiceProxy",
         hints=NO_PROXY,
     )
     context.prepare(WITHOUT_ROS)
@@ -211,17 +212,17 @@ def _answers(context: CheckContext, *, slowly: bool) -> None:
         ),
     )
     context.expect(
-        "area and volume are returned" + (", even if the bytes arrive slowly" if slowly else ""),
+        "ask() returns area and volume" + (", even if the bytes arrive slowly" if slowly else ""),
         expected=[area, volume],
         actual=result.returned(),
         near=1e-6,
         hints=_wrong_numbers(area, volume),
     )
     context.require(
-        "area and volume are returned",
+        "ask() returns area and volume",
         holds=not conversation.left_open,
         expected="a client that closes the connection after the response",
-        actual=f"an open connection {LINGER:g} s later",
+        actual=f"a connection that was still open {LINGER:g} s later",
         hints=UNTIL_THE_END if result.took > LINGER else OPEN,
     )
 
@@ -246,7 +247,7 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
     conversation = server.conversations[0]
     wait_until(lambda: conversation.over, TIMEOUT + LINGER + 1.0)
     context.require(
-        "the function sends a header and a request of TCPROS",
+        "the function sends a TCPROS header and a TCPROS request",
         holds=conversation.mistake not in MISTAKES,
         expected="a connection header, and then a request",
         actual=conversation.mistake,
@@ -320,9 +321,9 @@ def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: 
         )
     )
     server_text = (
-        "a server that refuses the connection" if in_handshake else "a server that refuses the request"
+        "if the server refuses the connection" if in_handshake else "if the server refuses the request"
     )
-    assertion = f"{server_text} leads to a ServiceException with its error message"
+    assertion = f"{server_text}, ask() raises a ServiceException with the server's error message"
     text = result.raised(
         assertion,
         "ServiceException",

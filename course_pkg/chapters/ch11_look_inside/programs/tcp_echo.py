@@ -22,7 +22,7 @@ def main() -> None:
     with socket.create_server(("127.0.0.1", 0)) as listener:
         threading.Thread(target=_accept, args=(listener,), daemon=True).start()
         rospy.set_param("~port", listener.getsockname()[1])
-        rospy.loginfo("Echoing at the port in %s", rospy.resolve_name("~port"))
+        rospy.loginfo("The server runs; the parameter %s contains its port", rospy.resolve_name("~port"))
         rospy.spin()
 
 

@@ -17,7 +17,7 @@ RIGHT = {
 }
 DECISIVE = {
     "A": "The master has an address for the name, but no process accepts connections at this address.",
-    "B": "Connections that are already open still work. Only the lookup of the name fails.",
+    "B": "The open connections continue to work. Only the lookup of the name fails.",
     "C": "No service of this node responds, not even get_loggers.",
     "D": (
         "The service get_loggers responds, so the process runs. The handlers of the other two services "
@@ -54,7 +54,7 @@ CASES = Cases(
 )
 
 
-@part("12.5", points=2, goal="Find the cause of each of seven problems.", needs=["diagnosis"])
+@part("12.5", points=2, goal="Find the cause of each of the seven problems.", needs=["diagnosis"])
 def diagnose(context: CheckContext) -> None:
     """Compare the student's choice for each case with the right cause."""
     compare_cases(context, "diagnosis", CASES)

@@ -22,7 +22,7 @@ GONE = (
     "remaining time as the limit of each wait."
 )
 STOPPED = (
-    "pay() ended before the deadline. Try again until the time in the argument `deadline` (in "
+    "pay() ended before the deadline. Repeat the call until the time in the argument `deadline` (in "
     "seconds) is over."
 )
 LONG_PAUSE = (
@@ -45,10 +45,10 @@ def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) ->
         if pauses[-1] < FIRST:
             break
     context.require(
-        "there is a pause before the next try",
+        "there is a pause before the next attempt",
         holds=min(pauses) < FIRST,
-        expected=f"{PAUSE:g} s after the first try",
-        actual=f"{min(pauses):.2f} s",
+        expected=f"a pause of {PAUSE:g} s after the first attempt",
+        actual=f"a pause of {min(pauses):.2f} s",
         hints=LONG_PAUSE,
     )
 
@@ -69,10 +69,10 @@ def pauses_after_a_timeout(context: CheckContext, name: str, till: FaultyServer)
         if pauses[-1] > 2 * PAUSE:
             break
     context.require(
-        "there is a pause before the next try",
+        "there is a pause before the next attempt",
         holds=max(pauses) > 2 * PAUSE,
-        expected=f"{4 * PAUSE:g} s after the third try",
-        actual=f"{max(pauses):.2f} s",
+        expected=f"a pause of {4 * PAUSE:g} s after the third attempt",
+        actual=f"a pause of {max(pauses):.2f} s",
         hints="There was no pause after a TimeoutError. Sleep after every failed call.",
     )
 
@@ -85,22 +85,25 @@ def ends_without_a_till(context: CheckContext) -> None:
         gone = [(matches("TimesUp"), GONE), *GIVEN_UP]
         result = pay(context, f"/{context.random.word()}", cents, AT_END, gone)
         context.expect(
-            "None when the deadline has passed", expected=None, actual=result.returned(), hints=UNKNOWN
+            "pay() returns None when the deadline has passed",
+            expected=None,
+            actual=result.returned(),
+            hints=UNKNOWN,
         )
         context.require(
-            "pay() uses the whole time until the deadline",
+            "pay() makes attempts until the deadline",
             holds=result.took > AT_WORK,
-            expected=f"tries for {AT_END:g} s",
-            actual=f"an end after {result.took:.1f} s",
+            expected=f"attempts for {AT_END:g} s",
+            actual=f"pay() ended after {result.took:.1f} s",
             hints=STOPPED,
         )
         times.append(result.took)
         if times[-1] < ENDED:
             break
     context.require(
-        "the deadline is kept",
+        "pay() ends at the deadline",
         holds=min(times) < ENDED,
-        expected=f"an end after {AT_END:g} s or slightly more",
-        actual=f"an end after {min(times):.1f} s",
+        expected=f"pay() ends after {AT_END:g} s or slightly more",
+        actual=f"pay() ended after {min(times):.1f} s",
         hints=OVERSLEPT,
     )

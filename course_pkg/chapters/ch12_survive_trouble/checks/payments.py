@@ -86,7 +86,7 @@ def pays_after(
     requests = till.requests[before:]
     ids = {request["request_id"] for request in requests}
     context.require(
-        "each try has the same id",
+        "each attempt has the same id",
         holds=len(ids) <= 1,
         expected="one request_id",
         actual=f"{len(ids)} different ids",
@@ -96,14 +96,18 @@ def pays_after(
         ),
     )
     context.expect(
-        "the receipt is returned at the end",
+        "at the end, pay() returns the receipt",
         expected=books.receipt(requests[-1]) if requests else 0,
         actual=result.returned(),
         hints=[
             (None, _why_given_up(words, result.took, len(till.arrivals) - arrived)),
         ],
     )
-    context.expect("the till has charged once at the end", expected=1, actual=len(books.charged) - charged)
+    context.expect(
+        "at the end, the till has charged the payment exactly once",
+        expected=1,
+        actual=len(books.charged) - charged,
+    )
     return len(requests)
 
 

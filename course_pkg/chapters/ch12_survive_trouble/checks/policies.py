@@ -24,7 +24,7 @@ DECISIVE = {
         "The two programs were built with different definitions. A second call does not change the "
         "definitions."
     ),
-    "speed": "The request sets a state. A second request has the same effect as the first one.",
+    "speed": "The request sets a state. A second request has the same effect as the first request.",
     "payment": "Perhaps the till has already taken the money. The till recognises a repeated request.",
     "step": (
         "Perhaps the robot has already moved, and a second request moves it again. A call of /where "
@@ -66,7 +66,7 @@ CASES = Cases(
 @part(
     "12.6",
     points=2,
-    goal="Choose the right policy for a client after each of six errors.",
+    goal="For each of the six errors, choose the right policy of the client.",
     needs=["policies"],
 )
 def choose_a_policy(context: CheckContext) -> None:

@@ -51,8 +51,8 @@ RACE = (
     "once. Hold one lock while you check for a receipt, take the money and store the receipt."
 )
 TOO_SOON = (
-    "A request failed and was repeated, but the till did not charge it. Store the request_id only "
-    "after `take()` has returned."
+    "A request failed, and the client sent it again, but the till did not charge it. Store the "
+    "request_id only after `take()` has returned."
 )
 REFUSED = "The till refused a repeated request. The first response was lost, so send the same receipt again."
 ONLY_TAKE = (
@@ -61,7 +61,7 @@ ONLY_TAKE = (
 )
 SAME_NUMBER = "Two requests got the same receipt number. Hold the lock while you count the receipts."
 ANOTHER_TILL = (
-    "A second Till uses the receipts of the first Till, so it treated a new request as a "
+    "A second Till object used the receipts of the first Till object, so it treated a new request as a "
     "repetition. Create the dict in __init__, and store it in self."
 )
 NOTHING = "The handler returned None. Return a ChargeResponse in every case."
@@ -70,7 +70,9 @@ STUCK = (
     "`with self.lock:`, which releases the lock after an error."
 )
 CHARGED = "Charge a new request. If the same request comes again, send the same receipt."
-FAILED = "If the purse fails, charge the request when it is sent again. Refuse a request without an id."
+FAILED = (
+    "If the purse fails, charge the request when the client sends it again. Refuse a request without an id."
+)
 
 
 @part(
@@ -93,7 +95,7 @@ def charge_once(context: CheckContext) -> None:
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
     purse, opened = _opened(context, name)
-    context.require("a Till can be created from a purse", holds=not opened.error, actual=opened.error)
+    context.require("a Till can be created with a purse", holds=not opened.error, actual=opened.error)
     hints = [
         (matches("Purse' object has no attribute"), ONLY_TAKE),
         (matches("TimesUp"), STUCK),
@@ -144,7 +146,7 @@ class CheckedPurse:
             self._turn.wait_for(lambda: self._asked[amount] > mine, limit)
             if self.stuck:
                 self.stuck = False
-                raise RuntimeError("the drawer is stuck")
+                raise RuntimeError("the money drawer is blocked")
             self.took.append(cents)
 
     def await_crowd(self) -> None:
@@ -187,7 +189,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
     _purse_has(
         context,
         purse,
-        "a new request is charged",
+        "the till charges a new request",
         [cents],
         [([], "The till did not take money. Call self.purse.take() with the cents of the request.")],
     )
@@ -195,7 +197,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
     _purse_has(
         context,
         purse,
-        "another request is charged, even if the amount is the same",
+        "the till charges another request, even if the amount is the same",
         [cents, cents],
         _only_one(
             "Two customers may pay the same amount. Compare only the request_id to find out whether "
@@ -203,18 +205,17 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
         ),
     )
     context.require(
-        "another request gets another receipt",
+        "another request gets a different receipt",
         holds=other != receipt,
-        expected="two receipts",
-        actual=f"{receipt} twice",
+        expected="two different receipts",
+        actual=f"the receipt {receipt} for both requests",
         hints=(
-            "Two purchases got the same receipt. Give each purchase a new number, for example the "
-            "number of receipts so far."
+            "Two purchases got the same receipt. Give each purchase a new number, for example from a counter."
         ),
     )
     for again, before in ((first, receipt), (second, other), (first, receipt)):
         repeated = charge(request_id=again, cents=context.random.integer(100, 900)).receipt
-        _purse_has(context, purse, "a repeated request is not charged again", [cents, cents], AGAIN)
+        _purse_has(context, purse, "the till does not charge a repeated request again", [cents, cents], AGAIN)
         context.expect(
             "a repeated request gets the same receipt again",
             expected=before,
@@ -242,7 +243,9 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
         ),
     )
     charge(request_id=request_id, cents=cents)
-    _purse_ends_with(context, purse, "a request that failed can be sent again", cents, TOO_SOON)
+    _purse_ends_with(
+        context, purse, "the till charges a failed request when the client sends it again", cents, TOO_SOON
+    )
     _fails_for_twins(context, purse, charge)
 
 
@@ -259,9 +262,9 @@ def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service
     replies = charge.replies([{"request_id": context.random.word(12), "cents": cents}] * 2)
     charged = len(purse.took) - before
     context.require(
-        "a request that failed can be sent again",
+        "the till charges a failed request when the client sends it again",
         holds=charged == 1 or all(reply.error for reply in replies),
-        expected="one charge for a receipt",
+        expected="a receipt, and one charge",
         actual=f"a receipt, and {charged} charges",
         hints=TOO_SOON,
     )
@@ -288,12 +291,12 @@ NOT_REFUSED: Hints = [
 
 
 def _refuses_without_an_id(context: CheckContext, charge: Service) -> None:
-    label = "a request without an id is refused"
+    label = "the till refuses a request without an id"
     error = charge.refused(label, request_id="", cents=context.random.integer(2000, 2900), hints=NOT_REFUSED)
     context.require(
         label,
         holds=bool(REFUSED_BY_HANDLER.search(error)),
-        expected="service cannot process request: …, with your error message",
+        expected="service cannot process request: …, and then your error message",
         actual=error,
         hints=NOT_REFUSED,
     )
@@ -309,7 +312,7 @@ def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> Non
     purse.await_crowd()
     replies = charge.at_once(requests)
     context.expect(
-        f"{AT_ONCE} calls at the same time, each request five times: each request is charged once",
+        f"{AT_ONCE} calls at the same time, each request five times: the till charges each request once",
         expected=sorted(buyer["cents"] for buyer in buyers),
         actual=sorted(purse.took[before:]),
         hints=RACE,
@@ -334,7 +337,7 @@ def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge
     ]
     receipts = [reply.response.receipt for reply in charge.at_once(requests)]
     context.require(
-        "another request gets another receipt",
+        "another request gets a different receipt",
         holds=len(set(receipts)) == len(receipts),
         expected=f"{AT_ONCE} receipts for {AT_ONCE} requests",
         actual=f"{len(set(receipts))} different receipts",
@@ -357,7 +360,7 @@ def _is_new_to_another_till(context: CheckContext, hints: Hints, request_id: str
     purse, _ = _opened(context, name)
     try:
         context.service(name, CHARGE, hints=hints, timeout=ONE)(request_id=request_id, cents=cents)
-        _purse_has(context, purse, "a new request is charged", [cents], ANOTHER_TILL)
+        _purse_has(context, purse, "the till charges a new request", [cents], ANOTHER_TILL)
     finally:
         context.run("checked_desk.close")
 

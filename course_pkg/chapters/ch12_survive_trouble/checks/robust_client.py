@@ -47,11 +47,11 @@ FAULTS = {
     "raising an error in its handler": [Fault(Stumble("list index out of range"))],
     SLOW: [Fault(Late(1.2, {}), worked=True)],
     "frozen": [Fault(Frozen())],
-    "killed after it charged, and started again": [Fault(Crash(AWAY), worked=True)],
+    "killed after it had charged the payment, and started again": [Fault(Crash(AWAY), worked=True)],
     "shut down and started again": [Fault(Crash(AWAY, unregisters=True))],
 }
 PAID = "Pay at a till that works, and do not repeat a refused payment."
-REPEATED = "Pay exactly once at a till that fails and recovers."
+REPEATED = "Pay exactly once at a till that fails and later works again."
 
 
 @part(
@@ -109,7 +109,7 @@ def _pays(context: CheckContext, name: str, till: FaultyServer, books: Books) ->
     for number in range(2):
         result = pay(context, name, cents, DEADLINE)
         context.require(
-            "the till is called",
+            "pay() calls the till",
             holds=bool(till.requests),
             expected=f"a call of {name}",
             actual="none",
@@ -117,13 +117,13 @@ def _pays(context: CheckContext, name: str, till: FaultyServer, books: Books) ->
         )
         _is_a_new_payment(context, till.requests[-1], cents, is_new=len(books.charged) == number + 1)
         context.expect(
-            "the receipt is returned",
+            "pay() returns the receipt",
             expected=books.receipt(till.requests[-1]),
             actual=result.returned(),
             hints=NO_RECEIPT,
         )
         context.require(
-            "a successful payment is not sent again",
+            "pay() does not send a successful payment again",
             holds=len(till.requests) == number + 1 or result.took > TRY,
             expected="one request for each payment",
             actual=f"{len(till.requests)} requests for {number + 1} payments",
@@ -138,8 +138,9 @@ def _pays(context: CheckContext, name: str, till: FaultyServer, books: Books) ->
         expected="ids that no other program creates",
         actual=", ".join(str(each["request_id"]) for each in till.requests),
         hints=(
-            "The ids come from a counter, and another program, or this program after a restart, creates the "
-            "same ids. Create each id with uuid.uuid4(), which never returns the same id twice."
+            "The ids come from a counter, so another program, or this program after a restart, can "
+            "create the same ids. Create each id with uuid.uuid4(), which never returns the same id "
+            "twice."
         ),
     )
 
@@ -147,7 +148,7 @@ def _pays(context: CheckContext, name: str, till: FaultyServer, books: Books) ->
 def _is_a_new_payment(
     context: CheckContext, request: Mapping[str, Json], cents: int, *, is_new: bool
 ) -> None:
-    context.expect("the request contains the cents", expected=cents, actual=request["cents"])
+    context.expect("the request contains the amount in cents", expected=cents, actual=request["cents"])
     context.require(
         "the request has an id",
         holds=bool(request["request_id"]),
@@ -173,7 +174,7 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
     till.plan.extend([Fault(Refuse(reason))] * 3)
     result = pay(context, name, context.random.integer(100, 900), 3.0)
     context.expect(
-        "a refused payment is not tried again",
+        "pay() does not repeat a refused payment",
         expected=1,
         actual=len(till.requests) - before,
         hints=(
@@ -182,7 +183,7 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
         ),
     )
     result.raised(
-        "a refusal is raised with its reason",
+        "if the till refuses, pay() raises the error of this call",
         "ServiceException",
         saying=reason,
         hints=[
@@ -221,12 +222,12 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
     till.plan.append(Fault(Refuse("service handler returned None"), worked=True))
     result = pay(context, name, context.random.integer(100, 900), DEADLINE)
     context.require(
-        'after an error with "handler returned", pay() tries again',
+        'after an error with "handler returned", pay() calls the till again',
         holds=not result.error,
-        expected="the receipt, after another try",
+        expected="the receipt, after another attempt",
         actual=result.error,
         hints=(
-            'An error that contains "handler returned" is not a refusal, because the handler has perhaps '
+            'An error that contains "handler returned" is not a refusal, because the handler may have '
             "done its work. After this error, call the till again."
         ),
     )
@@ -238,10 +239,10 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
     If the till responds in time, the client must make only one attempt.
     """
     context.require(
-        "the receipt is returned at the end",
+        "at the end, pay() returns the receipt",
         holds=tries > 1,
-        expected=f"a try that ends after {TRY:g} s, and another try",
-        actual="one try that waited longer",
+        expected=f"an attempt that ends after {TRY:g} s, and another attempt",
+        actual="one attempt that waited longer",
         hints=f"A call took longer than {TRY:g} s. Pass this limit to `call_within()`.",
     )
     before = len(till.requests)
@@ -249,7 +250,7 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
     result = pay(context, name, context.random.integer(100, 900), DEADLINE)
     tries = len(till.requests) - before
     context.require(
-        "a successful payment is not sent again",
+        "pay() does not send a successful payment again",
         holds=tries == 1 or result.took > TRY,
         expected=f"one request to a till that takes {A_LITTLE:g} s",
         actual=f"{tries} requests within {result.took:.1f} s",
@@ -271,10 +272,10 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
     times = till.arrivals[before:]
     pauses = [later - earlier for earlier, later in pairwise(times)]
     context.require(
-        "there is a pause before the next try",
+        "there is a pause before the next attempt",
         holds=min(pauses) > 0.9 * PAUSE,
-        expected=f"{PAUSE:g} s or more",
-        actual=f"{min(pauses):.3f} s",
+        expected=f"a pause of {PAUSE:g} s or more",
+        actual=f"a pause of {min(pauses):.3f} s",
         hints=(
             "The pause after the first failed call was missing or too short. Sleep for 0.1 s after this call."
         ),
@@ -282,7 +283,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
     context.require(
         "each pause is longer than the previous pause",
         holds=pauses[2] > 3.5 * PAUSE,
-        expected=f"{4 * PAUSE:g} s before the fourth attempt",
+        expected=f"a pause of {4 * PAUSE:g} s before the fourth attempt",
         actual=f"{pauses[2]:.2f} s",
         hints=SLOW_GROWTH,
     )
@@ -296,7 +297,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         context.require(
             "each pause is longer than the previous pause",
             holds=pause > 0.95 * longest,
-            expected=f"{longest:g} s before attempt {MOST + 1}",
+            expected=f"a pause of {longest:g} s before attempt {MOST + 1}",
             actual=f"{pause:.2f} s",
             hints=SLOW_GROWTH,
         )
@@ -306,26 +307,26 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
     till.plan.extend([Fault(Silence())] * 100)
     result = pay(context, name, context.random.integer(100, 900), SHORT, GIVEN_UP)
     context.expect(
-        "None when the deadline has passed",
+        "pay() returns None when the deadline has passed",
         expected=None,
         actual=result.returned(),
         hints=UNKNOWN,
     )
     context.require(
-        "the deadline is kept",
+        "pay() ends at the deadline",
         holds=result.took < SHORT + SLACK,
-        expected=f"an end after {SHORT:g} s or slightly more",
-        actual=f"an end after {result.took:.1f} s",
+        expected=f"pay() ends after {SHORT:g} s or slightly more",
+        actual=f"pay() ended after {result.took:.1f} s",
         hints=(
             "pay() was still running after the deadline. Check the remaining time before each call and "
             "before each pause."
         ),
     )
     context.require(
-        "pay() uses the whole time until the deadline",
+        "pay() makes attempts until the deadline",
         holds=result.took > SHORT / 3,
-        expected=f"tries for {SHORT:g} s",
-        actual=f"an end after {result.took:.1f} s",
+        expected=f"attempts for {SHORT:g} s",
+        actual=f"pay() ended after {result.took:.1f} s",
     )
     till.plan.clear()
 
@@ -345,7 +346,7 @@ def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) ->
 
     wait_until(is_kept, KEEPING)
     context.expect(
-        "the deadline is kept",
+        "pay() ends at the deadline",
         expected=None,
         actual=returned[-1],
         hints=(

@@ -200,12 +200,12 @@ def _responds(context: CheckContext, name: str, adder: Adder, limit: float = LON
         ),
     )
     context.require(
-        "the response is returned as soon as it arrives",
+        "the function returns the response as soon as it arrives",
         holds=result.took < WORK + SLACK + 0.5,
-        expected="an immediate return",
-        actual=f"a return after {result.took:.1f} s",
+        expected="the function returns immediately",
+        actual=f"the function returned after {result.took:.1f} s",
         hints=(
-            "The function still waited after the response had arrived. Replace the sleep by "
+            "The function still waited after the response had arrived. Replace the sleep with "
             "join(seconds), which returns as soon as the thread has ended."
         ),
     )
@@ -214,7 +214,7 @@ def _responds(context: CheckContext, name: str, adder: Adder, limit: float = LON
 def _passes_on(context: CheckContext, name: str, act: Act) -> None:
     result = _call(context, name, LONG, 1, 2)
     result.raised(
-        "an error of the call is raised again",
+        "if the call raises an error, the function raises the same error",
         "ServiceException",
         saying=act.reason if isinstance(act, Refuse) else "",
         hints=[
@@ -251,7 +251,7 @@ def _passes_on(context: CheckContext, name: str, act: Act) -> None:
 def _gives_up(context: CheckContext, name: str, limit: float) -> None:
     result = _call(context, name, limit, *ABANDONED)
     result.raised(
-        "TimeoutError when the time is over",
+        "the function raises TimeoutError when the time is over",
         "TimeoutError",
         hints=[
             (None, "The time was over, but the function returned None. Raise TimeoutError."),
@@ -266,16 +266,16 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         ],
     )
     context.require(
-        "the time limit is kept",
+        "the function waits until the time limit is reached",
         holds=limit - 0.1 < result.took < limit + SLACK,
         expected=f"TimeoutError after {limit:g} s",
-        actual=f"after {result.took:.1f} s",
+        actual=f"the function ended after {result.took:.1f} s",
         hints="The function did not wait for the given time. Pass `seconds` to join().",
     )
     context.require(
-        "the time limit is kept",
+        "the thread is a daemon thread",
         holds=context.read("checked_call.daemon", bool),
-        expected="a daemon thread that still waits",
+        expected="a daemon thread",
         actual="a thread that is not a daemon thread",
         hints=(
             "At the end of a program, Python waits for each thread that is not a daemon thread. Create the "
@@ -283,7 +283,7 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         ),
     )
     context.require(
-        "the time limit is kept",
+        "the function needs almost no processor time while it waits",
         holds=context.read("checked_call.busy", float) < BUSY,
         expected="almost no processor time",
         actual=f"{context.read('checked_call.busy', float):.1f} s of processor time in {limit:g} s",

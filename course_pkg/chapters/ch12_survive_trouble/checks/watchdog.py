@@ -101,7 +101,7 @@ def a_watchdog(context: CheckContext) -> None:
         worded="Watchdog(name, uri, master, every)",
     )
     context.require(
-        "a Watchdog can be created from a name, an address, a master and a pause",
+        "a Watchdog can be created with a name, an address, a master and a pause",
         holds=not opened.error,
         actual=opened.error,
         hints=[(matches("TimesUp"), ENDLESS)],
@@ -126,7 +126,7 @@ def _registers_again(
     second: SecondMaster,
     master: MasterClient,
 ) -> None:
-    unknown = "a service that the master does not know is registered"
+    unknown = "the watchdog registers a service that the master does not know"
     _is_registered(context, watched, master, name, uri, unknown, NEVER)
     looks = watched.looks
     polls = wait_until(lambda: watched.looks > looks + 1, SOON)
@@ -152,7 +152,7 @@ def _registers_again(
             actual="longer and longer pauses" if grew else f"a poll every {watched.gap:.1f} s",
             hint=GREW if grew else TOO_RARELY,
         )
-    restarted = "the service is registered with a master that was restarted"
+    restarted = "after a restart of the master, the watchdog registers the service again"
     _is_registered(context, watched, master, name, uri, restarted, DIED)
     _only_polls(context, watched)
     _leaves_the_name(context, master, name)
@@ -162,7 +162,7 @@ def _registers_again(
         master,
         name,
         uri,
-        "a name that is free again is registered",
+        "the watchdog registers a name that is free again",
         (
             "The name is free again, but the watchdog does not register its own service. After a poll "
             "that finds another provider, continue to poll."
@@ -188,10 +188,13 @@ def _is_registered(
         actual="no provider of this name",
         hints=hint
         if asked
-        else "The watchdog did not call the master that was passed to it. Call the methods of self.master.",
+        else (
+            "The watchdog did not use the argument `master`. Store this argument in self, and call its "
+            "methods."
+        ),
     )
     context.require(
-        "the service is registered with its own address",
+        "the watchdog registers the address of the service and the address of the node",
         holds=seen == uri,
         expected="the argument `uri`",
         actual="another address",
@@ -209,13 +212,13 @@ def _leaves_the_name(context: CheckContext, master: MasterClient, name: str) -> 
     fought = wait_until(lambda: master.lookup_service(name) != other, LEFT_ALONE)
     master.unregister_service("/another", name, other)
     context.require(
-        "a name that another node has registered stays with this node",
+        "the watchdog does not register a name that another node has registered",
         holds=not fought,
         expected="the other node's address",
-        actual="the address of the student's service",
+        actual="the address of your service",
         hints=(
             "Another node provides this service now, but the watchdog registered its own service. "
-            "Register only if the master knows no provider."
+            "Register the service only if the master knows no provider of the name."
         ),
     )
 
@@ -223,10 +226,10 @@ def _leaves_the_name(context: CheckContext, master: MasterClient, name: str) -> 
 def _registers_both_addresses(context: CheckContext, watched: CheckedMaster, uri: str, node_uri: str) -> None:
     given = watched.addresses[0] if watched.addresses else []
     context.require(
-        "the service is registered with its own address",
+        "the watchdog registers the address of the service and the address of the node",
         holds=given == [uri, node_uri],
         expected="the address of the service, and then rospy.get_node_uri()",
-        actual=", ".join(given) or "no registration by the given master",
+        actual=", ".join(given) or "no registration at the given master",
         hints=(
             "The last argument of registerService() is wrong. Pass rospy.get_node_uri(), which is the "
             "address of the node."
@@ -255,7 +258,7 @@ def _only_polls(context: CheckContext, watched: CheckedMaster) -> None:
     looked = watched.looks - looks
     again = len(watched.registered) - before
     context.require(
-        "a registered service is not registered again",
+        "the watchdog does not register a registered service again",
         holds=again == 0,
         expected="no registration",
         actual=f"registrations: {again}",
@@ -280,9 +283,10 @@ def _only_polls(context: CheckContext, watched: CheckedMaster) -> None:
     )
 
 
+STOPPED = "no registration, and no further polls"
 NOT_STOPPED: Hints = [
     (
-        "after stop",
+        "a registration after stop()",
         (
             "The thread registered the service after stop() had returned. In stop(), wait for the "
             "thread with join(), or use a lock."
@@ -296,7 +300,7 @@ NOT_STOPPED: Hints = [
         ),
     ),
     (
-        "stop() hangs",
+        "stop() does not end",
         (
             "stop() does not return. Check whether stop() waits for a lock that is always held, or for "
             "a thread that does not end."
@@ -313,15 +317,15 @@ def _returns(context: CheckContext, master: MasterClient, name: str, uri: str) -
 
 def _stops(context: CheckContext, watched: CheckedMaster, returns: Callable[[], bool]) -> None:
     context.expect(
-        "after stop(), nothing is registered any more",
-        expected="quiet",
+        "after stop(), the watchdog registers nothing",
+        expected=STOPPED,
         actual=_stopped_amid_a_look(context, watched, returns),
         hints=NOT_STOPPED,
     )
 
 
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster, returns: Callable[[], bool]) -> str:
-    """Call stop() during a poll; return "quiet" if the watchdog then stops correctly.
+    """Call stop() during a poll; return STOPPED if the watchdog then stops correctly.
 
     `returns` unregisters the service, and returns whether the service is registered again.
 
@@ -329,15 +333,15 @@ def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster, returns:
     """
     watched.hold()
     if not watched.inside.wait(SOON):
-        return "no look"
+        return "no poll before stop()"
     result = context.run("checked_watch.stop", within=SOON, worded="stop()")
     stopped = watched.stopped_at
     if stopped is None:
-        return "stop() hangs"
+        return "stop() does not end"
     result.returned()
     if returns() or any(when > stopped for when in watched.registered):
-        return "after stop"
-    return "further polls" if watched.polls_after(stopped) > LAST else "quiet"
+        return "a registration after stop()"
+    return "further polls" if watched.polls_after(stopped) > LAST else STOPPED
 
 
 def _answers(master: MasterClient) -> bool:

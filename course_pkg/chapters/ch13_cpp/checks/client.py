@@ -48,7 +48,10 @@ int main(int argc, char** argv) {{
   return 0;
 }}
 """
-REPEATS = "Call the service at most 3 times, with pauses. End with exit status 1 after the last refusal."
+REPEATS = (
+    "After a refused call, pause and call the service again. End with exit status 1 after the third "
+    "refused call."
+)
 
 
 @dataclass
@@ -115,10 +118,10 @@ def _prints_the_answer(context: CheckContext, client: Client) -> set[str]:
     name, sides, volume = _random_box(context)
     server = client.serve(name, lambda: {"volume": volume})
     finished = client.run(name, sides)
-    _prints(context, finished, volume, "if the server responds, the volume is printed")
+    _prints(context, finished, volume, "if the server responds, the program prints the volume")
     given = [round(float(value), 2) for value in list(server.requests[0].values())]
     context.expect(
-        "length, width and height are sent without a change", expected=sides, actual=given, near=0.02
+        "the program sends length, width and height without a change", expected=sides, actual=given, near=0.02
     )
     context.expect(
         "after a response, the program does not call again",
@@ -147,7 +150,7 @@ def _prints_a_volume_of_0(context: CheckContext, client: Client) -> None:
         context,
         client.run(name, sides),
         0.0,
-        "if the server responds, the volume is printed",
+        "if the server responds, the program prints the volume",
         "A response with the volume 0 is valid. Test the return value of call(), not the volume.",
     )
 
@@ -157,19 +160,24 @@ def _prints_more_answers(context: CheckContext, client: Client) -> None:
     for _ in range(context.random.integer(0, 2)):
         name, sides, volume = _random_box(context)
         client.serve(name, partial(dict, volume=volume))
-        _prints(context, client.run(name, sides), volume, "if the server responds, the volume is printed")
+        _prints(
+            context,
+            client.run(name, sides),
+            volume,
+            ("if the server responds, the program prints the volume"),
+        )
 
 
 def _asks_again(context: CheckContext, client: Client) -> list[float]:
     name, sides, volume = _random_box(context)
     server, calls = _refusing(client, name, TRIES - 1, volume)
     finished = client.run(name, sides)
-    assertion = "if the server refuses twice, the third call gets the response"
+    assertion = "if the server refuses two calls, the program makes a third call and prints the volume"
     if not _numbers(finished.out) or finished.status != 0 or len(server.requests) != TRIES:
         count = len(server.requests)
         context.fail(
             assertion,
-            expected=f"{volume:g}, after {TRIES} calls",
+            expected=f"the output {volume:g} after {TRIES} calls",
             actual=_outcome(finished, count),
             hint=_why_not_third(finished, count),
         )
@@ -186,8 +194,8 @@ def _pauses_between_calls(context: CheckContext, *runs: list[float]) -> None:
             expected="a short pause after each refusal",
             actual=f"the next call after {1000 * shortest:.1f} ms",
             hint=(
-                "The program makes the next call immediately after a refusal, so the server probably "
-                "refuses this call, too. Add ros::WallDuration(0.2).sleep() between two calls."
+                "The program makes the next call immediately after a refused call, so the server "
+                "probably refuses this call, too. Add ros::WallDuration(0.2).sleep() between two calls."
             ),
         )
 
@@ -208,7 +216,10 @@ def _gives_up_after_refusals(context: CheckContext, client: Client, shapes: set[
     name, sides, _ = _random_box(context)
     server, calls = _refusing(client, name, 1000, 0.0)
     finished = client.run(name, sides)
-    assertion = "if the server always refuses, the program ends with 1 after three calls and prints no volume"
+    assertion = (
+        "if the server refuses every call, the program makes three calls, prints no volume, and ends "
+        "with exit status 1"
+    )
     good = finished.status == 1 and not _volumes(finished.out, shapes) and len(server.requests) == TRIES
     count = len(server.requests)
     context.require(
@@ -223,7 +234,9 @@ def _gives_up_after_refusals(context: CheckContext, client: Client, shapes: set[
 
 def _why_not_one(finished: Finished, count: int) -> str:
     if finished.status is None:
-        return "The program calls the service without end. Count the calls, and stop after the third call."
+        return (
+            "The program calls the service again and again. Count the calls, and stop after the third call."
+        )
     if count != TRIES:
         return f"The program made {count} calls, but it has to make 3. Also count the first call."
     if finished.status == 0:
@@ -244,7 +257,7 @@ def _waits_for_a_late_server(context: CheckContext, client: Client) -> None:
         context,
         finished,
         volume,
-        "a server that starts after 1 s gets a call",
+        "if the server starts after 1 s, the program calls the service",
         MILLISECONDS
         if re.search(r"waitForService\([^;]*,\s*\d{1,3}\s*\)", context.source(f"file:{FILE}"))
         else (
@@ -258,14 +271,14 @@ def _gives_up_without_a_server(context: CheckContext, client: Client, shapes: se
     name, sides, _ = _random_box(context)
     finished = client.run(name, sides)
     context.require(
-        "without a server, the program ends with 1 after 2 s and prints no volume",
+        "without a server, the program prints no volume, and ends with exit status 1 after 2 s",
         holds=finished.status == 1
         and not _volumes(finished.out, shapes)
         and 0.8 * WAIT < finished.took < WAIT + SLACK,
         expected="exit status 1 after about 2 s",
         actual=_outcome(finished, 0),
         hints=(
-            "The program waits without a limit. Write waitForExistence(ros::Duration(2))."
+            "The program waits without a time limit. Write waitForExistence(ros::Duration(2))."
             if finished.status is None
             else (
                 f"The program waited {finished.took:.1f} s, which is too long. Write "

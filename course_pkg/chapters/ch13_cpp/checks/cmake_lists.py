@@ -64,8 +64,8 @@ int main(int argc, char** argv) {
 # The student's CMakeLists.txt must not build a program from this file.
 OTHER_PROGRAM = "int main() { return 0; }\n"
 SECOND_MAIN = (
-    "CMake built box_server from all the files in the folder src, but a program can have only one main(). "
-    "Write only src/box_server.cpp into add_executable."
+    "CMake built box_server from all the files in the folder src, but a program can have only one "
+    "main(). In add_executable, write only src/box_server.cpp after the name of the program."
 )
 
 
@@ -94,7 +94,7 @@ def cmake_list_file(context: CheckContext) -> None:
         "rosrun finds the program box_server",
         holds=there.status == 0,
         expected=BUILT,
-        actual="no such program",
+        actual="no program with this name",
         hints=_why_not_there(context.source(f"file:{FILE}")),
     )
     require_roscpp(context, folder, BUILT)

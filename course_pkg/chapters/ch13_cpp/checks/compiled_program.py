@@ -108,8 +108,8 @@ def _why_not(status: int | None, code: str) -> str:
         )
     if status is None:
         return (
-            "The node does not offer a service with the right name. Compare the name with the "
-            "name in the exercise, and create the NodeHandle without an argument."
+            "The node does not offer a service with the right name. Compare the name in your program "
+            "with the name in the exercise, and create the NodeHandle without an argument."
         )
     if status < 0 or status > 100:
         return "The program crashed. Call ros::init before you create the first NodeHandle."

@@ -31,7 +31,7 @@ START = f"""%%writefile {FILE}
 
 int served = 0;
 
-// Takes long, and uses no shared data.
+// Takes a long time, and uses no shared data.
 void think() {{
   ros::WallDuration({THINKING}).sleep();
 }}
@@ -141,10 +141,12 @@ def _still_thinks(context: CheckContext, code: str, time: float, took: float, mo
     of think() was changed.
     """
     context.require(
-        "think() and count() take as long as before",
+        "think() and count() take as long as in the original program",
         holds=len(re.findall(r"\bsleep\(\)", code)) >= 2 and "think()" in code and 0.98 * time < took < most,
-        expected=f"the original think() and count(), which the check runs with {time:.2f} s for a client",
-        actual="a server without these pauses" if took == time else f"{took:.2f} s for a client",
+        expected=(f"the original think() and count(), which take {time:.2f} s for each client in this check"),
+        actual="a server without the pauses of these functions"
+        if took == time
+        else f"{took:.2f} s for a client",
         hints=(
             "The functions think() and count() simulate long calculations, so do not change the "
             "duration of their sleep. Use several threads, so that the calls run at the same time."
@@ -166,7 +168,7 @@ def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str
         replies = number.at_once([{}] * CALLERS)
         numbers = sorted(_number(reply.response.message) for reply in replies)
         context.expect(
-            "clients at the same time get different numbers, without gaps",
+            "clients that call at the same time get different numbers without gaps",
             expected=list(itertools.islice(numbers_to_come, CALLERS)),
             actual=numbers,
             hints=_why_lost(code),

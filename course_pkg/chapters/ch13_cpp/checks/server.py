@@ -39,8 +39,8 @@ int main(int argc, char** argv) {{
 """
 SIDES = ("length", "width", "height")
 NO_FRACTION = (
-    "The digits after the decimal point are missing, because an int contains only whole numbers. "
-    "Use float or auto."
+    "The digits after the decimal point are missing, because an int stores only whole numbers. Use "
+    "float or auto."
 )
 ZERO_IS_ALLOWED = (
     "A side was 0, but the handler refused the call. Refuse only a side below 0, and return the "
@@ -115,7 +115,7 @@ def _measures(context: CheckContext, box: Service, scale: float = 1.0) -> None:
         height,
         area=_wrong_area(length, width),
         volume=_wrong_volume(area, height),
-        assertion="area is length times width, with the part after the decimal point",
+        assertion="area is length times width, with the digits after the decimal point",
     )
 
 
@@ -132,14 +132,14 @@ def _refuses(context: CheckContext, box: Service, wrong: Sequence[str]) -> None:
     sides.update({side: -sides[side] for side in wrong})
     below = f"{' and '.join(wrong)} {'was' if len(wrong) == 1 else 'were'}"
     box.refused(
-        "a side below 0 is refused",
+        "the server refuses a side below 0",
         saying="responded with an error",
         hints=[
             (
                 matches("TimesUp|transport"),
                 (
-                    "The program has ended, or it does not respond. To refuse a call, only return false "
-                    "from the handler."
+                    "The program has ended, or it does not respond. To refuse a call, return false "
+                    "from the handler, and do not end the program."
                 ),
             ),
             (

@@ -110,17 +110,17 @@ def own_queue(context: CheckContext) -> None:
         context,
         QUEUE,
         r"CallbackQueue\s+\w+",
-        "the program creates another callback queue",
+        "the program creates a second callback queue",
         (
             "The program uses only one callback queue. Create a ros::CallbackQueue, and pass it to "
             "setCallbackQueue of a second NodeHandle."
         ),
     )
     context.require(
-        "the program creates another callback queue",
+        "the program creates a second callback queue",
         holds=not _leaves_battery_in_the_global_queue(_code(context, QUEUE)),
-        expected="a queue for /battery",
-        actual="/battery in the global queue",
+        expected="the service /battery uses the second queue",
+        actual="the service /battery uses the global queue",
         hints=(
             "The program creates a second callback queue, but /battery does not use it. Create the service "
             "/battery with the NodeHandle that has the second queue."
@@ -171,7 +171,10 @@ def _calls_battery(context: CheckContext, *, holds: bool) -> None:
         holds=holds,
         expected="a call of the service",
         actual="none",
-        hints="The handlers were changed. Use the original two handlers, and change only main.",
+        hints=(
+            "Your two handlers are different from the original handlers. Use the original handlers, "
+            "and change only main."
+        ),
     )
 
 
@@ -184,7 +187,7 @@ def _reports(context: CheckContext, program: TurtleProgram, clients: int, too_fe
         report = world.service("report", "std_srvs/Trigger", _why(too_few))
         for reply in _groups(report, clients):
             context.require(
-                f"{clients} clients at the same time get their responses",
+                f"{clients} clients that call at the same time get their responses",
                 holds=reply.response.message == f"battery: {level}",
                 expected=f"battery: {level}",
                 actual=reply.response.message,

@@ -46,7 +46,7 @@ def count_sessions(context: CheckContext) -> None:
         context.fulfilled(COUNTED)
         for session in context.random.shuffled(sessions)[:3]:
             service.refused(
-                'a call without the field "session" is refused',
+                'the handler refuses a call without the header field "session"',
                 hints=(
                     'The header had no field "session", but the response contains a count. Test with '
                     "find() whether the header has this field."

@@ -103,7 +103,7 @@ def bring_a_second_turtle(context: CheckContext) -> None:
     "14.6",
     points=1,
     goal=(
-        "Write exercise3.launch: start the simulator and the driver always, but start "
+        "Write exercise3.launch: always start the simulator and the driver, but start "
         "spawn_turtle_plus only with addturtle:=true."
     ),
     needs=[f"file:{LAUNCH.path}"],

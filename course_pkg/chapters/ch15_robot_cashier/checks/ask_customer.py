@@ -231,7 +231,7 @@ def _calls(context: CheckContext, run: Run, detector: _Detector) -> None:
         ],
     )
     context.expect(
-        "the patience is the parameter ~wait",
+        "the field `patience` is the value of the parameter ~wait",
         expected=detector.wait,
         actual=calls[0],
         near=1e-3,
@@ -242,7 +242,7 @@ def _calls(context: CheckContext, run: Run, detector: _Detector) -> None:
 
 def _finds_nobody(context: CheckContext, run: Run, detector: _Detector) -> None:
     context.expect(
-        "without the parameter, the patience is 2 s",
+        "without the parameter, the field `patience` is 2 s",
         expected=[2.0],
         actual=detector.patiences,
         near=1e-6,
@@ -261,7 +261,7 @@ def _prints(context: CheckContext, run: Run, word: str) -> None:
         (ANYTHING, OTHER_LINE),
     ]
     context.require(
-        "the program prints only customer or nobody",
+        'the program prints only "customer" or "nobody"',
         holds=words == [word] and not others,
         expected=word,
         actual=" / ".join(run.lines[:3]) or "no output",
@@ -293,9 +293,9 @@ def _is_refused(context: CheckContext, run: Run, detector: _Detector) -> None:
 
 def _gives_up(context: CheckContext, run: Run) -> None:
     context.require(
-        "without a service, the program gives up after 3 s with a message, and its exit status is 1",
+        "without a service, the program ends after 3 s with a message, and its exit status is 1",
         holds=run.status == 1 and bool(run.lines) and "Traceback" not in run.out,
-        expected="a message (exit status 1)",
+        expected="a message and exit status 1",
         actual=run.last,
         hints=[
             (lambda _: run.status is None, FOREVER),

@@ -122,15 +122,15 @@ def the_detector(context: CheckContext) -> None:
 
 def _finds(context: CheckContext, detect: Service, patience: float, hint: str, within: float = SLACK) -> None:
     response = detect(patience=patience)
-    context.expect("a customer is found", expected=True, actual=response.found, hints=hint)
+    context.expect("the node finds a customer", expected=True, actual=response.found, hints=hint)
     context.require(
-        "a customer is found immediately",
+        "the node finds a customer immediately",
         holds=detect.took < within,
         expected="an immediate response",
         actual=f"a response after {detect.took:.1f} s",
         hints=(
-            "A customer was there before the call, but the handler waited. Check first, and wait only "
-            "if no customer is there."
+            "A customer was there before the call, but the handler waited. First check for a customer, "
+            "and wait only if no customer is there."
         ),
     )
 
@@ -138,10 +138,10 @@ def _finds(context: CheckContext, detect: Service, patience: float, hint: str, w
 def _finds_nobody(context: CheckContext, detect: Service, patience: float) -> None:
     response = detect(patience=patience)
     context.expect(
-        "without a customer, found is False", expected=False, actual=response.found, hints=REMEMBERED
+        "without a customer, `found` is False", expected=False, actual=response.found, hints=REMEMBERED
     )
     context.require(
-        "without a customer, the call waits for the whole patience",
+        "without a customer, the call takes `patience` seconds",
         holds=patience - EARLY < detect.took < patience + SLACK,
         expected=f"a response after {patience:g} s",
         actual=f"a response after {detect.took:.1f} s",
@@ -220,7 +220,7 @@ def _refuses_impossible_patience(context: CheckContext, detect: Service, vision:
         refused(
             context,
             hasty,
-            f"a patience that is {what} is refused immediately",
+            f"the node immediately refuses a value of `patience` that is {what}",
             "patience",
             patience=patience,
             hints=[
@@ -234,7 +234,7 @@ def _refuses_impossible_patience(context: CheckContext, detect: Service, vision:
 SILENT = 'The error message does not contain the word "camera". Write this word into the message.'
 OLD = (
     "The handler used a message that is older than 1 s. Store the time at which each message arrives, "
-    "and compare it with the current time."
+    "and compare this time with the current time."
 )
 NOBODY_KNOWS = (
     "Without messages from the camera, the node does not know whether a customer is there. After "
@@ -266,7 +266,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
+    start=start_of(NAME, "# Copy your program of exercise 15.2 into this cell, and extend the copy.\n..."),
     goals={
         SILENT_CAMERA: 3,
         (
@@ -282,23 +282,23 @@ def the_silent_camera(context: CheckContext) -> None:
         vision.is_heard(context)
         name = f"{space}/{DETECT}"
         detect = context.service(name, AWAIT, timeout=LONG + SLACK, hints=REFUSED_RETURN)
-        _refuses(context, detect, 0.3, "before the first message, the node refuses")
+        _refuses(context, detect, 0.3, "before the first message, the node refuses a call")
         vision.show_later(0.4, True)
         _finds(context, detect, LONG, CAME_BACK, within=LONG / 2)
         vision.customer = None
         _counts_for_a_second(context, name, vision)
         while vision.silent_for() < 1.2:
             time.sleep(0.05)
-        _refuses(context, detect, 0.3, "after 1 s without a message, the node refuses")
+        _refuses(context, detect, 0.3, "after 1 s without a message, the node refuses a call")
         context.fulfilled(SILENT_CAMERA)
         vision.show(False)
         vision.customer = None
         _counts_before_the_call(context, name, vision)
-        _refuses(context, detect, 1.5, "if the camera becomes silent during the call, the node refuses")
+        _refuses(context, detect, 1.5, "if the camera stops during a call, the node refuses this call")
         vision.show_later(0.5, False)
         response = detect(patience=1.0)
         context.expect(
-            "if messages come again during the call, found has a value",
+            "if messages arrive again during a call, this call succeeds",
             expected=False,
             actual=response.found,
             hints=CAME_BACK,
@@ -342,7 +342,7 @@ def _refuses(context: CheckContext, detect: Service, patience: float, assertion:
     )
     took = time.monotonic() - started
     context.require(
-        "the node refuses when the patience is over, not before",
+        "the node refuses the call after `patience` seconds, not earlier",
         holds=took > patience - EARLY,
         expected=f"an error after {patience:g} s",
         actual=f"an error after {took:.1f} s",

@@ -99,7 +99,7 @@ LISTED = "Start the nodes of the hardware only with hardware:=true. Always start
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
-    goals=[LISTED, 'Pass the argument "wait" to the node, and start the right programs.'],
+    goals=[LISTED, 'Pass the argument "wait" to the node robot_cashier, and start the right programs.'],
 )
 def the_launch_file(context: CheckContext) -> None:
     """Examine the nodes, programs and parameters that roslaunch would start and set."""
@@ -125,7 +125,7 @@ def _remaps_nothing(context: CheckContext, printed: str) -> None:
     """Report a failure if the launch file remaps a name of a node."""
     for node, old, new in re.findall(r"^remapped (\S+) (\S+) (\S+)", printed, re.MULTILINE):
         context.fail(
-            "each node has its own program",
+            "each node starts the right program with the right names",
             expected=f"the node {node} with the name {old}",
             actual=f"the name {new}",
             hint=(
@@ -225,7 +225,9 @@ def longest_delay(printed: str) -> float:
 
 
 def starts_programs(
-    context: CheckContext, printed: str, assertion: str = "each node has its own program"
+    context: CheckContext,
+    printed: str,
+    assertion: str = ("each node starts the right program with the right names"),
 ) -> None:
     """Assert that each node runs the program with the same name; `printed` is the output of READER."""
     for node, started in re.findall(r"^node /(\S+) (.*\S)", printed, re.MULTILINE):

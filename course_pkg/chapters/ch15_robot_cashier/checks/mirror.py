@@ -74,7 +74,7 @@ def _mirrors(context: CheckContext, subscription: Subscription, states: list[Joi
     published = {state.secs for state in states}
     strange = [image.secs for image in images if image.secs not in published]
     context.require(
-        "the images have the stamps of their joint states",
+        "each mirror image has the time stamp of its joint state",
         holds=bool(images) and not strange,
         expected="images with the stamps of the published joint states",
         actual=f"the stamp {strange[0]} s" if strange else "no image",
@@ -85,7 +85,7 @@ def _mirrors(context: CheckContext, subscription: Subscription, states: list[Joi
         _is_image(context, valid[image.secs], image)
     stamps = list(valid)
     context.expect(
-        "every valid joint state is mirrored once, and in the right order",
+        "the node mirrors every valid joint state once, in the right order",
         expected=stamps,
         actual=[image.secs for image in images],
         hints=_wrong_selection(stamps),
@@ -96,7 +96,7 @@ def _is_prompt(context: CheckContext, subscription: Subscription, sent: list[flo
     delays = sorted(arrival.at - sent[_secs(arrival) - FIRST] for arrival in subscription.arrivals)
     median = delays[len(delays) // 2]
     context.require(
-        "each image comes immediately",
+        "the node publishes each mirror image immediately",
         holds=median < PROMPT,
         expected="an image a few milliseconds after its joint state",
         actual=f"half of the images with a delay of more than {median:.1f} s",
@@ -111,19 +111,19 @@ def _leaves_out(context: CheckContext, images: list[JointState], invalid: dict[i
             if image.position and not any(image.position):
                 hint = ZEROS
             context.fail(
-                "an invalid joint state is ignored",
+                "the node ignores an invalid joint state",
                 expected="no image of this joint state",
                 actual=actual,
                 hint=hint,
             )
-    context.require("an invalid joint state is ignored", holds=True)
+    context.require("the node ignores an invalid joint state", holds=True)
 
 
 def _why_invalid(state: JointState) -> tuple[str, str]:
     """Return two texts: why the joint state `state` is invalid, and the hint for its mirror image."""
     if state.misses_positions:
         return (
-            f"an image of {len(state.position)} positions for {len(state.name)} joints",
+            f"a mirror image with {len(state.position)} positions for {len(state.name)} joints",
             (
                 "The number of names is different from the number of positions. Compare the "
                 "lengths of these two lists, and ignore the message if the lengths are different."
@@ -131,14 +131,14 @@ def _why_invalid(state: JointState) -> tuple[str, str]:
         )
     if state.misses_velocities:
         return (
-            f"an image of {len(state.velocity)} velocities for {len(state.name)} joints",
+            f"a mirror image with {len(state.velocity)} velocities for {len(state.name)} joints",
             (
                 "The number of velocities has to be 0 or equal to the number of names. Ignore a "
                 "message with a different number of velocities."
             ),
         )
     return (
-        "an image of a number that is not finite",
+        "a mirror image with a number that is not finite",
         ("A position or velocity was nan or inf, which is not valid. Check each number with math.isfinite."),
     )
 
@@ -146,7 +146,7 @@ def _why_invalid(state: JointState) -> tuple[str, str]:
 def _is_image(context: CheckContext, state: JointState, image: JointState) -> None:
     if image.header_text != state.header_text:
         context.fail(
-            "the header is not changed",
+            "the mirror image has the same header as the joint state",
             expected=state.header_text,
             actual=image.header_text,
             hint=(
@@ -156,7 +156,7 @@ def _is_image(context: CheckContext, state: JointState, image: JointState) -> No
         )
     for field, values, actual in (("name", state.name, image.name), ("effort", state.effort, image.effort)):
         context.expect(
-            f"the field {field} is not changed",
+            f"the mirror image has the same field `{field}` as the joint state",
             expected=values,
             actual=actual,
             hints=(
@@ -169,7 +169,7 @@ def _is_image(context: CheckContext, state: JointState, image: JointState) -> No
         ("velocity", state.velocity, image.velocity),
     ):
         context.expect(
-            f"every {field} has the opposite sign",
+            f"every {field} in the mirror image has the opposite sign",
             expected=[-value for value in values],
             actual=actual,
             near=1e-9,
@@ -212,8 +212,8 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         (
             lambda actual: set(stamps) - set(actual) == {FIRST + EFFORT},
             (
-                "The node ignored a joint state with an infinite effort, which is valid. Check only "
-                "positions and velocities with math.isfinite."
+                "The node ignored a joint state with an infinite effort, but this joint state is "
+                "valid. Check only positions and velocities with math.isfinite."
             ),
         ),
         (
@@ -234,8 +234,8 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         (
             lambda actual: set(stamps) - set(actual) <= {FIRST + 5 * n for n in range(6)},
             (
-                "The node ignored a joint state without velocities, which is valid. Publish the mirror "
-                "image, because many robots send no velocities."
+                "The node ignored a joint state without velocities, but this joint state is valid. "
+                "Publish the mirror image, because many robots send no velocities."
             ),
         ),
         (

@@ -26,9 +26,9 @@ def refused(
     bug = (matches("error processing|handler returned"), BUG)
     text = service.refused(assertion, saying=word, hints=[bug, *rest], **fields)
     context.require(
-        "the handler refuses with a rospy.ServiceException",
+        "the handler refuses the call with a rospy.ServiceException",
         holds=bool(BY_HANDLER.search(text)),
-        expected="cannot process request, and the message",
+        expected='an error that contains "cannot process request" and your message',
         actual=text,
         hints=BUG,
     )

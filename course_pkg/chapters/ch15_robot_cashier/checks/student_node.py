@@ -117,7 +117,7 @@ def complete(
     context: CheckContext, running: Running, script: Program, space: str, interface: Interface
 ) -> None:
     """Wait until the node has all names of its interface; if a name does not appear, report the reason."""
-    assertion = f"rosrun starts the node {script.node} with all its names"
+    assertion = f"rosrun starts the node {script.node} with all its services and topics"
     node = f"{space}/{script.node}"
     seen = context.look()
     started = time.monotonic()
@@ -180,8 +180,8 @@ def _why_incomplete(script: Program, status: int | None, printed: str, here: lis
             "without anonymous=True."
         )
     return (
-        f"The program runs, but no part of it {lacking}. Compare your names with the names in the "
-        "exercise, letter by letter."
+        f"The program runs, but the check found no node that {lacking}. Compare your names with the "
+        "names in the exercise, letter by letter."
     )
 
 

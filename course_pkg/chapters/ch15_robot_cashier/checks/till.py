@@ -88,8 +88,8 @@ def _items(context: CheckContext, count: int) -> list[tuple[str, int]]:
 
 NOT_ADDED = "The total is wrong. Return the sum of the cents of all items, including the item of this call."
 TWICE = (
-    "The total contains the old price and the new price of an item. If the same item is set again, "
-    "replace its old price."
+    "The total contains the old price and the new price of an item. If a client sets the same item "
+    "again, replace the old price."
 )
 FREE = "An item that costs 0 cents is missing. Store and count this item like all other items."
 CASE = (
@@ -153,11 +153,17 @@ def the_sum(context: CheckContext) -> None:
         item = context.random.word()
         for word in (str(amount), item):
             refused(
-                context, till.set, "negative cents are refused with item and cents in the message", word,
-                item=item, cents=amount,
+                context,
+                till.set,
+                "the till refuses negative cents, and the error message contains the item and the cents",
+                word,
+                item=item,
+                cents=amount,
                 hints=[(matches("cannot process request"), NEGATIVE_TEXT), (ANYTHING, NEGATIVE)],
-            )  # fmt: skip
-        refused(context, till.set, "an item without a name is refused", "", item="", cents=5, hints=NAMELESS)
+            )
+        refused(
+            context, till.set, "the till refuses an item without a name", "", item="", cents=5, hints=NAMELESS
+        )
         _totals(context, total, prices, CHANGED, CHANGED)
 
 
@@ -193,8 +199,8 @@ COUNTED = (
     "after print_line has returned."
 )
 NO_PRINTER = (
-    "The service print_line does not exist, and the till did not refuse the call within 5 s. Do "
-    "not wait for this service without a time limit."
+    "The service print_line does not exist, and the till did not refuse the call within 5 s. If the "
+    "till waits for this service, use a time limit."
 )
 RESTARTED = (
     "The printer was started again, but the till still refuses an item. Create the proxy without "
@@ -219,7 +225,7 @@ ORDER = (
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, "# Your program of exercise 15.7, extended.\n..."),
+    start=start_of(NAME, "# Copy your program of exercise 15.7 into this cell, and extend the copy.\n..."),
     goals={PRINTED: 2, "Print one line at a time. Refuse an item if there is no printer.": 1},
 )
 def the_printed_till(context: CheckContext) -> None:
@@ -274,16 +280,20 @@ def _refuses_without_print(
     for name, cents in (item, (next(iter(prices)), 1)):
         before = till.printer.calls
         refused(
-            context, till.set, "if the printer refuses, the till refuses with the printer's message", REASON,
-            item=name, cents=cents,
+            context,
+            till.set,
+            "if the printer refuses a line, the till refuses the item with the printer's message",
+            REASON,
+            item=name,
+            cents=cents,
             hints=[
                 (matches("TimesUp"), BROKEN),
                 (matches("cannot process request"), REASONLESS),
                 (ANYTHING, NOT_REFUSED),
             ],
-        )  # fmt: skip
+        )
         context.require(
-            "if the printer refuses, the till refuses with the printer's message",
+            "if the printer refuses a line, the till refuses the item with the printer's message",
             holds=till.printer.calls <= before + 1,
             expected="one call of print_line",
             actual=f"{till.printer.calls - before} calls",
@@ -298,10 +308,12 @@ def _refuses_without_print(
 
 def _prints_no_illegal_item(context: CheckContext, till: Till) -> None:
     before = len(till.printer.lines)
-    refused(context, till.set, "an item without a name is refused", "", item="", cents=5, hints=NAMELESS)
-    refused(context, till.set, "negative cents are refused", "", item="x", cents=-5, hints=NEGATIVE)
+    refused(
+        context, till.set, "the till refuses an item without a name", "", item="", cents=5, hints=NAMELESS
+    )
+    refused(context, till.set, "the till refuses negative cents", "", item="x", cents=-5, hints=NEGATIVE)
     context.expect(
-        "nothing is printed for a refused item",
+        "the till prints nothing for a refused item",
         expected=[],
         actual=till.printer.lines[before:],
         hints=ILLEGAL,
@@ -329,7 +341,7 @@ def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int])
     sums = list(itertools.accumulate((int(cents) for _, _, cents in printed), initial=sum(prices.values())))
     wanted = {name: total for (name, _, _), total in zip(printed, sums[1:], strict=True)}
     context.expect(
-        "each total is the sum of the lines printed so far",
+        "each total is the sum of the prices on the printed lines",
         expected=[wanted.get(item) for item, _ in items],
         actual=[reply.response.total for reply in replies],
         hints=ORDER,
@@ -339,7 +351,13 @@ def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int])
 def _refuses_without_printer(context: CheckContext, till: Till, item: str, cents: int) -> None:
     till.server.leave()
     refused(
-        context, till.set, "without a printer, the till refuses", "", item=item, cents=cents, hints=NO_PRINTER
+        context,
+        till.set,
+        "without a printer, the till refuses an item",
+        "",
+        item=item,
+        cents=cents,
+        hints=NO_PRINTER,
     )
 
 
@@ -386,12 +404,12 @@ LEFT = (
     goal="Extend till.py: till/reset removes all items, and returns a message with the sum that was paid.",
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, "# Your program of exercise 15.8, extended.\n..."),
+    start=start_of(NAME, "# Copy your program of exercise 15.8 into this cell, and extend the copy.\n..."),
     goals={
         EMPTIED: 3,
         (
-            "If a line is being printed, wait until it is printed. "
-            "Reset the till even if there is no printer."
+            "If the printer is printing a line, wait until the line is printed. Reset the till even if "
+            "there is no printer."
         ): 1,
     },
 )
@@ -445,14 +463,14 @@ def _waits_for_a_line(context: CheckContext, till: Till, reset: Service, total: 
         waited = time.monotonic() - started
         setting.result()
     context.require(
-        "a reset waits for the line that is being printed",
+        "a reset waits until the current line is printed",
         holds=waited > HOLDING - 0.1,
         expected="a response after the line was printed",
         actual="a response before the line was printed",
         hints=TOO_EARLY,
     )
     context.expect(
-        "the sum that was paid contains the item of this line",
+        "the paid sum contains the cents of this item",
         expected=f"paid {first[1] + second[1]} cents",
         actual=response.message,
         hints=NOT_COUNTED,

@@ -150,15 +150,27 @@ def _valid_frames(context: CheckContext, width: int, height: int) -> list[Frame]
     return [
         Frame(assertion, image_of(context, width, height, dark, style), customer, hint)
         for assertion, dark, customer, style, hint in (
-            ("a light frame shows no customer", 0, False, Style(), EMPTY),
+            ("a bright frame shows no customer", 0, False, Style(), EMPTY),
             ("a frame with many dark points shows a customer", 2 * tenth, True, Style(), AVERAGE),
             ("a frame with few dark points shows no customer", tenth // 2, False, Style(), NOISE),
-            ("a tenth of the points is enough", tenth, True, Style(), TENTH),
-            ("one dark point less is not enough", tenth - 1, False, Style(), ROUNDED),
-            ("a point with the value 96 is not dark", 2 * tenth, False, Style(dark=(DARK, DARK)), LIMIT),
-            ("padding at the end of a row does not count", 0, False, Style(padding=7), PADDING),
             (
-                "padding at the end of a row does not count",
+                "a frame shows a customer if exactly a tenth of its points is dark",
+                tenth,
+                True,
+                Style(),
+                TENTH,
+            ),
+            (
+                "a frame shows no customer if less than a tenth of its points is dark",
+                tenth - 1,
+                False,
+                Style(),
+                ROUNDED,
+            ),
+            ("a point with the value 96 is not dark", 2 * tenth, False, Style(dark=(DARK, DARK)), LIMIT),
+            ("the node ignores the padding at the end of each row", 0, False, Style(padding=7), PADDING),
+            (
+                "the node ignores the padding at the end of each row",
                 tenth,
                 True,
                 Style(padding=9, filling=255),
@@ -167,7 +179,7 @@ def _valid_frames(context: CheckContext, width: int, height: int) -> list[Frame]
         )
     ] + [
         Frame(
-            "one dark point less is not enough",
+            "a frame shows no customer if less than a tenth of its points is dark",
             image_of(context, odd_width, odd_height, odd_dark),
             customer=False,
             hint=ROUNDED,
@@ -254,7 +266,7 @@ def _leaves_out(
     camera.send(malformed)
     seen.until(lambda arrivals: len(arrivals) > before, SILENT)
     context.require(
-        f"nothing is published for a malformed frame: {what}",
+        f"the node publishes nothing for a malformed frame: {what}",
         holds=seen.count == before,
         expected="no message",
         actual="a message on customer_seen",

@@ -82,8 +82,8 @@ RESET_FAILED = (
     "rospy.ServiceException at the call of till/reset, and continue the loop."
 )
 NO_TILL = (
-    "The service till/reset does not exist, and the node stopped calling detect_customer. Do not "
-    "wait for till/reset without a time limit, and catch rospy.ServiceException."
+    "The service till/reset does not exist, and the node stopped calling detect_customer. If the node "
+    "waits for till/reset, use a time limit, and catch rospy.ServiceException."
 )
 NO_DEFAULT = (
     "If the parameter ~wait is not set, the field `patience` has to be 2 s. Use "
@@ -148,7 +148,7 @@ GREETED = "Greet each customer once, and publish mirror images of the arm at the
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
-    start=start_of(NAME, "# Your program of exercise 15.5, extended.\n..."),
+    start=start_of(NAME, "# Copy your program of exercise 15.5 into this cell, and extend the copy.\n..."),
     goals={
         GREETED: 3,
         "Call detect_customer in a loop. If the parameter ~wait is not set, set `patience` to 2 s.": 1,
@@ -181,7 +181,7 @@ def the_visits(context: CheckContext) -> None:
         context.fulfilled(GREETED)
         wait_until(lambda: alone.patiences or default.status is not None, NEXT_CALL)
         context.expect(
-            "without the parameter, the patience is 2 s",
+            "without the parameter, the field `patience` is 2 s",
             expected=[2.0],
             actual=alone.patiences[:1],
             near=1e-6,
@@ -281,7 +281,7 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
         )
         wanted = detector.wait if step.waits else 0.0
         context.require(
-            "the patience is ~wait, and 0 during a visit",
+            "the field `patience` is the value of ~wait, and 0 during a visit",
             holds=abs(call.patience - wanted) < 1e-3,
             expected=f"`patience` {wanted:g} {after}",
             actual=f"`patience` {call.patience:g}",
@@ -319,7 +319,7 @@ def _mirrors_meanwhile(context: CheckContext, mirrored: Subscription, call: Call
     wait_until(lambda: time.monotonic() > call.answered, STANDING + 1.0)
     meanwhile = [each for each in mirrored.arrivals if call.came + 0.2 < each.at < call.answered]
     context.require(
-        "the node mirrors the arm while a call waits",
+        "the node mirrors the arm during a call of detect_customer",
         holds=len(meanwhile) > 2,
         expected="an image every 50 ms",
         actual=f"{len(meanwhile)} images in 1 s",
@@ -332,7 +332,7 @@ def _mirrors_in_visit(context: CheckContext, mirrored: Subscription, calls: list
     began, ended = calls[1].answered + 0.2, calls[VISITS_END[0] - 1].came
     meanwhile = [each for each in mirrored.arrivals if began < each.at < ended]
     context.require(
-        "the node mirrors the arm while a call waits",
+        "the node mirrors the arm during a call of detect_customer",
         holds=len(meanwhile) > 2,
         expected="an image every 50 ms during a visit, too",
         actual=f"{len(meanwhile)} images during a visit",
@@ -374,7 +374,7 @@ def _greets(context: CheckContext, greetings: Subscription, till: Till) -> None:
         actual=f"{len(texts)} greetings",
         hints=NOT_GREETED if len(texts) < 2 else GREETED_AGAIN,
     )
-    context.expect(f"the greeting is {GREETING}", expected=[GREETING] * 2, actual=texts, hints=TEXT)
+    context.expect(f'the greeting is "{GREETING}"', expected=[GREETING] * 2, actual=texts, hints=TEXT)
     context.require(
         "the node resets the till once after each visit",
         holds=till.resets == VISITS_END,

@@ -94,8 +94,8 @@ RESPAWN = (
     'remove required="true".'
 )
 DELAYED = (
-    "The attribute respawn_delay lets roslaunch wait too long before it starts a node again. Remove this "
-    "attribute."
+    "The attribute respawn_delay makes roslaunch wait too long before it starts a node again. Remove "
+    "this attribute."
 )
 # This code kills the process that listens at each of the given ports. A node could return the process id of
 # another process.
@@ -109,7 +109,7 @@ for process in psutil.process_iter():
         if any(sock.status == psutil.CONN_LISTEN and str(sock.laddr.port) in sys.argv for sock in sockets):
             process.kill()
 """
-RESTARTED = "a node that was killed is started again"  # The text is the title of an assertion.
+RESTARTED = "roslaunch starts a killed node again"  # The text is the title of an assertion.
 AFTERWARDS = (
     "After all nodes were killed and started again, the next customer was not greeted. Start the "
     "system, kill a node, and read the new output."
@@ -125,7 +125,10 @@ AFTERWARDS = (
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
-    start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
+    start=(
+        f"%%writefile {FILE}\n"
+        "<!-- Copy your file of exercise 15.10 into this cell, and change the copy. -->\n..."
+    ),
     # The check starts the course's programs in place of missing programs of the student.
     runs=[*NODES, "simulator", "watch", "pictures"],
 )
@@ -243,7 +246,7 @@ class Shop:
         """Assert that the node vision publishes a message for the next frame."""
         before = self.seen.count
         self.context.require(
-            "the frames lead to messages on customer_seen",
+            "the node vision publishes a message for each frame",
             holds=self.seen.until(lambda arrivals: len(arrivals) > before, REACTION),
             expected="a message for each frame",
             actual="no message",
@@ -270,13 +273,13 @@ class Shop:
         images, sent = mirrored.count, len(arm.sent)
         self.counter.show(True)
         context.require(
-            "a customer is detected", holds=self.knows(True, NO_CUSTOMER), expected="found=True",
+            "the system detects a customer", holds=self.knows(True, NO_CUSTOMER), expected="found=True",
             actual="found=False", hints=NO_CUSTOMER,
         )  # fmt: skip
         self.is_greeted(1, NOT_GREETED)
         self.greetings.during(1.0)
         context.require(
-            "each customer is greeted once",
+            "the system greets each customer once",
             holds=self.greetings.count == 1,
             expected="1 greeting",
             actual=f"{self.greetings.count} greetings",
@@ -302,11 +305,13 @@ class Shop:
             hints=PRINTER,
         )
         self.printer.fault = ""
-        refused(context, put, "an item without a name is refused", "", item="", cents=1, hints=UNKNOWN)
-        context.expect("a refused item does not count", expected=wanted, actual=total().cents, hints=COUNTED)
+        refused(context, put, "the till refuses an item without a name", "", item="", cents=1, hints=UNKNOWN)
+        context.expect(
+            "a refused item does not change the sum", expected=wanted, actual=total().cents, hints=COUNTED
+        )
         self.counter.show(False)
         context.require(
-            "after the visit the till is empty",
+            "after the visit, the till is empty",
             holds=bool(wait_until(lambda: total().items == 0, REACTION, POLL)),
             expected="0 items",
             actual=f"{MANY} items",
@@ -314,7 +319,7 @@ class Shop:
         )
         images, sent = mirrored.count - images, len(arm.sent) - sent
         context.require(
-            "the arm is mirrored all the time",
+            "the system mirrors the arm all the time",
             holds=images > sent / 4,
             expected=f"{sent} images",
             actual=f"{images} images",
@@ -324,7 +329,7 @@ class Shop:
     def is_greeted(self, count: int, hint: str) -> None:
         """Assert that `count` greetings were published."""
         self.context.require(
-            "a customer is greeted",
+            "the system greets a customer",
             holds=len(self.greetings.wait(count, REACTION)) == count,
             expected="a greeting",
             actual="none",
@@ -339,7 +344,7 @@ class Shop:
         refused(
             self.context,
             detect,
-            "if the camera is silent, detect_customer refuses",
+            "if the camera is silent, detect_customer refuses each call",
             "camera",
             patience=0.0,
             hints=SILENT,

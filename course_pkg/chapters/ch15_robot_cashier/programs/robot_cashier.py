@@ -50,7 +50,7 @@ class RobotCashier:
         try:
             self._mirror.publish(mirrored(joints))
         except ValueError as error:
-            rospy.logwarn_throttle(QUIET, "Not mirrored: %s", error)
+            rospy.logwarn_throttle(QUIET, "No mirror image, because the joint state is invalid: %s", error)
 
     def greet(self, wait: float) -> None:
         """Wait for customers and greet them until the node is shut down."""
@@ -66,7 +66,11 @@ class RobotCashier:
             return bool(self._detect.call(patience=wait, timeout=wait + GRACE).found)
         except FAILED as error:
             if not self._over.is_set():  # After a shutdown, the error is expected and is not logged.
-                rospy.logwarn_throttle(QUIET, "Cannot detect customers, trying again: %s", error)
+                rospy.logwarn_throttle(
+                    QUIET,
+                    ("The call of detect_customer failed, and the node will repeat the call: %s"),
+                    error,
+                )
             self._over.wait(AGAIN)
             return otherwise
 
@@ -81,7 +85,7 @@ class RobotCashier:
             self._reset.call(timeout=GRACE)
         except FAILED as error:
             if not self._over.is_set():
-                rospy.logwarn("The till was not reset: %s", error)
+                rospy.logwarn("The call of till/reset failed: %s", error)
 
 
 def main() -> None:

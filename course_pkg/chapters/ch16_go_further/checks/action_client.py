@@ -157,16 +157,16 @@ def _in_time(context: CheckContext) -> None:
     with _serving(name, robot):
         result = _fetch(context, robot, name, things, ENOUGH)
         context.expect(
-            "if a robot finishes in time, its result is returned",
+            "if the robot finishes in time, fetch_within() returns the result",
             expected=fetched,
             actual=result.returned(),
             hints=_wrong_result(robot, things),
         )
         context.require(
-            "if a robot finishes in time, its result is returned",
+            "if the robot finishes in time, fetch_within() returns the result",
             holds=result.took < PROMPT,
-            expected="the result as soon as it arrives",
-            actual=f"the result after {result.took:.1f} s",
+            expected="a function that returns the result as soon as it arrives",
+            actual=f"a function that returned the result after {result.took:.1f} s",
             hints=(
                 "The function still waited after the result had arrived. Remove sleep(), because "
                 "wait_for_result returns as soon as the goal has ended."
@@ -174,7 +174,7 @@ def _in_time(context: CheckContext) -> None:
         )
     _sends_the_goal(context, robot.goals[0], things)
     context.require(
-        "a robot that finishes in time is not cancelled",
+        "fetch_within() does not cancel a goal that ends in time",
         holds=not robot.cancelled.is_set(),
         expected="no cancellation",
         actual="a cancellation",
@@ -208,14 +208,14 @@ def _too_late(context: CheckContext) -> None:
         if not result.error:
             _is_cancelled(context, robot)
             context.require(
-                "a robot that does not finish in time is cancelled",
+                "fetch_within() cancels a goal that does not end in time",
                 holds=not robot.cancelled_all,
                 expected="a cancellation of this goal",
                 actual="a cancellation of all goals",
                 hints="cancel_all_goals() also cancels the goals of other clients. Call cancel_goal().",
             )
         context.expect(
-            "after a cancellation, the number of things fetched so far is returned",
+            "after a cancellation, fetch_within() returns the number of fetched things",
             expected=fetched,
             actual=result.returned(),
             hints=[
@@ -239,7 +239,7 @@ def _too_late(context: CheckContext) -> None:
 
 def _is_cancelled(context: CheckContext, robot: Robot) -> None:
     context.require(
-        "a robot that does not finish in time is cancelled",
+        "fetch_within() cancels a goal that does not end in time",
         holds=robot.cancelled.wait(1.0),
         expected=f"a cancellation after {SECONDS:g} s",
         actual="no cancellation: the robot continues although the client has stopped waiting",
@@ -256,7 +256,7 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
     )
     if not 0.6 * SECONDS < robot.took < SECONDS + SLACK:
         context.fail(
-            "a robot that does not finish in time is cancelled",
+            "fetch_within() cancels a goal that does not end in time",
             expected=f"a cancellation after {SECONDS:g} s",
             actual=f"a cancellation after {robot.took:.1f} s",
             hint=HOW_LONG,
@@ -275,10 +275,12 @@ def _goes_on(context: CheckContext) -> None:
         if endless or result.took < STUBBORN:
             break
     context.require(
-        "a robot that does not finish in time is cancelled",
+        "fetch_within() cancels a goal that does not end in time",
         holds=not endless and result.took < STUBBORN,
         expected=f"a function that ends at most {WAIT:g} s after the cancellation",
-        actual="a function that does not end" if endless else f"an end after {result.took:.1f} s",
+        actual="a function that does not end"
+        if endless
+        else (f"a function that ended after {result.took:.1f} s"),
         hints=(
             "The robot ignored the cancellation, so the function waited too long. Wait at most 2 s "
             "after cancel_goal()."
@@ -303,7 +305,7 @@ def _comes(context: CheckContext) -> None:
             coming.join()
         if robot.goals:
             context.expect(
-                "if a robot finishes in time, its result is returned",
+                "if the robot finishes in time, fetch_within() returns the result",
                 expected=fetched,
                 actual=result.returned(),
                 hints=ABORTED,
@@ -326,7 +328,7 @@ def _comes(context: CheckContext) -> None:
 def _nobody(context: CheckContext) -> None:
     result = _call_without_robot(context)
     context.expect(
-        "None if no robot offers the action",
+        "fetch_within() returns None if no robot offers the action",
         expected=None,
         actual=result.returned(),
         hints=NOBODY,
@@ -336,7 +338,7 @@ def _nobody(context: CheckContext) -> None:
             result = _call_without_robot(context)
     if result.took > LONGEST:
         context.fail(
-            "None if no robot offers the action",
+            "fetch_within() returns None if no robot offers the action",
             expected=f"None after {WAIT:g} s",
             actual=f"None after {result.took:.1f} s",
             hint=(

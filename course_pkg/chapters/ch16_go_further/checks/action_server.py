@@ -59,7 +59,7 @@ EXECUTED = "Publish feedback after each thing, and the result at the end."
     ),
     needs=["Fetcher"],
     deadline=60.0,
-    goals={EXECUTED: 2, "Stop when the goal is cancelled, and accept a goal with 0 things.": 1},
+    goals={EXECUTED: 2, "Stop when a client cancels the goal, and accept a goal with 0 things.": 1},
 )
 def executed_goal(context: CheckContext) -> None:
     """Create an object of the student's class; send goals with different times, and cancel one goal."""
@@ -157,7 +157,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
     while True:
         before, began = feedback.count, time.monotonic()
         _sends(context, client, FetchGoal(things=things, seconds=each))
-        _ends_as(context, client, "a goal is executed to its end", GoalStatus.SUCCEEDED)
+        _ends_as(context, client, "the server executes a goal to its end", GoalStatus.SUCCEEDED)
         took = time.monotonic() - began
         feedback.wait(before + things, within=1.0)
         at = [arrival.at for arrival in feedback.arrivals[before:]]
@@ -170,7 +170,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
         hints=_wrong_number_fetched(things),
     )
     context.require(
-        "each thing takes the time that the goal contains",
+        "each thing takes the time in the field `seconds` of the goal",
         holds=took > 0.9 * things * each and _pace(at, took / things) < LONG[0] / 2,
         expected=f"about {things * each:.2f} s for {things} things",
         actual=f"{took:.2f} s",
@@ -190,7 +190,7 @@ def _pace(at: list[float], alone: float) -> float:
 
 def _sends_feedback(context: CheckContext, feedback: Subscription, before: int, things: int) -> None:
     context.expect(
-        "after each thing, the feedback is the number of things fetched so far",
+        "after each thing, the feedback is the number of fetched things",
         expected=list(range(1, things + 1)),
         actual=_counts(feedback)[before:],
         hints=_wrong_feedback(things),
@@ -200,20 +200,20 @@ def _sends_feedback(context: CheckContext, feedback: Subscription, before: int, 
 def _is_on_time(context: CheckContext, at: list[float], began: float, each: float) -> None:
     """Assert that each feedback message arrives when the robot has fetched one more thing."""
     context.require(
-        "the feedback arrives while the goal is executed",
+        "the feedback arrives during the execution of the goal",
         holds=at[-1] - at[0] > 0.4 * (len(at) - 1) * each,
-        expected="one after the other",
-        actual="all at the same moment",
+        expected="one message after the other",
+        actual="all messages at the same moment",
         hints=(
             "All feedback messages arrived at the end. Publish each message immediately after the "
             "robot has fetched the thing."
         ),
     )
     context.require(
-        "the feedback comes after its thing",
+        "the feedback arrives after the server has fetched the thing",
         holds=at[0] - began > 0.9 * each,
-        expected=f"the first after {each:.2f} s",
-        actual=f"the first after {at[0] - began:.3f} s",
+        expected=f"the first feedback after {each:.2f} s",
+        actual=f"the first feedback after {at[0] - began:.3f} s",
         hints="The feedback came before the robot had fetched the thing. First sleep, and then publish.",
     )
 
@@ -222,10 +222,10 @@ def _takes_long_for_a_long_thing(context: CheckContext, client: actionlib.Simple
     each = context.random.number(*LONG, digits=3)
     began = time.monotonic()
     _sends(context, client, FetchGoal(things=2, seconds=each))
-    _ends_as(context, client, "a goal is executed to its end", GoalStatus.SUCCEEDED)
+    _ends_as(context, client, "the server executes a goal to its end", GoalStatus.SUCCEEDED)
     took = time.monotonic() - began
     context.require(
-        "each thing takes the time that the goal contains",
+        "each thing takes the time in the field `seconds` of the goal",
         holds=took > 1.9 * each,
         expected=f"about {2 * each:.2f} s for 2 things",
         actual=f"{took:.2f} s",
@@ -276,9 +276,9 @@ def _cancels(context: CheckContext, client: actionlib.SimpleActionClient, feedba
     feedback.wait(before + 2, within=TIMEOUT)
     client.cancel_goal()
     context.require(
-        "a goal that is cancelled ends soon",
+        "a cancelled goal ends after the current thing",
         holds=_is_over(client, CANCELLING),
-        expected="a goal that ends after the thing that is being fetched",
+        expected="a goal that ends after the current thing",
         actual="a robot that continues to fetch",
         hints=(
             "The robot continued after the client had cancelled the goal. Call "
@@ -286,10 +286,10 @@ def _cancels(context: CheckContext, client: actionlib.SimpleActionClient, feedba
             "call returns True."
         ),
     )
-    _ends_as(context, client, "a goal that is cancelled ends as PREEMPTED", GoalStatus.PREEMPTED)
+    _ends_as(context, client, "a cancelled goal ends in the state PREEMPTED", GoalStatus.PREEMPTED)
     last = _last(feedback)
     context.expect(
-        "the result of a cancelled goal is the number of things fetched so far",
+        "the result of a cancelled goal is the number of fetched things",
         expected=last,
         actual=client.get_result().fetched,
         hints=_wrong_number_left(last),
@@ -325,7 +325,7 @@ def _cancels_during_the_last_thing(context: CheckContext, client: actionlib.Simp
     result = client.get_result() if _is_over(client, TIMEOUT) else None
     complete = result is not None and result.fetched == 1
     context.require(
-        "a goal is executed to its end",
+        "the server executes a goal to its end",
         holds=not (complete and client.get_state() == GoalStatus.PREEMPTED),
         expected="SUCCEEDED",
         actual="PREEMPTED, after the last thing",

@@ -53,15 +53,15 @@ def speed_parameter(context: CheckContext) -> None:
     first, default = context.random.numbers(2, 1.0, 9.0)
     (second,) = context.random.numbers(1, 0.1, 0.9)
     no_number, not_positive = (
-        "the default, if the value is not a number",
-        "the default, if the value is not above 0",
+        "speed_of() returns the default if the value is not a number",
+        "speed_of() returns the default if the value is not above 0",
     )
     cases: list[tuple[float | str | bool | list[float], str, float, str]] = [
-        (first, "the parameter, if it is set", first, NAME),
-        (second, "the new value, after the parameter was changed", second, CHANGED),
+        (first, "speed_of() returns the value of the parameter", first, NAME),
+        (second, "speed_of() returns the new value after a change of the parameter", second, CHANGED),
         (
             2,
-            "the parameter, if it is a whole number",
+            "speed_of() accepts a whole number",
             2.0,
             "The function did not return the int 2, which is a valid speed. Accept an int, too.",
         ),
@@ -74,9 +74,16 @@ def speed_parameter(context: CheckContext) -> None:
     ]
     try:
         missing = "The parameter is not set. In this case, return the argument `default`."
-        _returns(context, robot, default, "the default, if the parameter is not set", default, missing)
+        _returns(
+            context,
+            robot,
+            default,
+            "speed_of() returns the default if the parameter is not set",
+            default,
+            missing,
+        )
         context.require(
-            "the default, if the parameter is not set",
+            "speed_of() returns the default if the parameter is not set",
             holds=not rospy.has_param(f"/{robot}/speed"),
             expected="no parameter, as before the call",
             actual="a parameter that the function has set",

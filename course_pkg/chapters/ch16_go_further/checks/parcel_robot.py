@@ -48,7 +48,7 @@ if __name__ == "__main__":
     # Write your node: imports above, functions or a class above this block, the rest here.
 """
 DELIVERED = "Deliver parcels with feedback, and publish the charge of the battery."
-STOPPED = "Stop when the delivery is cancelled."
+STOPPED = "Stop when a client cancels the delivery."
 LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows."
 
 
@@ -56,8 +56,8 @@ LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows
     "16.4",
     points=4,
     goal=(
-        "Write a node with four interfaces: battery, door, deliver and capacity. For each interface, use "
-        "the right kind."
+        "Write a node with four interfaces: battery, door, deliver and capacity. For each interface, "
+        "choose a topic, a service, an action or a parameter."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
@@ -98,7 +98,7 @@ def _starts_with_a_full_battery(context: CheckContext, battery: Subscription) ->
     gaps = [after.at - before.at for before, after in itertools.pairwise(arrivals)]
     period = statistics.median(gaps) if gaps else 0.0
     context.require(
-        "battery has five values per second",
+        "the node publishes five values of the battery per second",
         holds=0.5 * PERIOD < period < 1.7 * PERIOD,
         expected=f"a value every {PERIOD:g} s",
         actual=f"a value every {period:.2f} s" if gaps else "too few values",
@@ -108,7 +108,7 @@ def _starts_with_a_full_battery(context: CheckContext, battery: Subscription) ->
         ),
     )
     context.expect(
-        "the battery starts with 100",
+        "the first value of the battery is 100",
         expected=100.0,
         actual=arrivals[0].fields["data"],
         hints="Before the first delivery, the charge has to be 100. Publish the charge in percent.",
@@ -120,7 +120,7 @@ def _moves_the_door(context: CheckContext, robot: Robot) -> None:
     for wanted, position in ((True, "open"), (False, "closed"), (True, "open"), (True, "open")):
         response = door(data=wanted)
         context.expect(
-            "the door reports its new position",
+            "the response of door contains the new position",
             expected=position,
             actual=response.message,
             hints=(
@@ -129,7 +129,7 @@ def _moves_the_door(context: CheckContext, robot: Robot) -> None:
             ),
         )
         context.expect(
-            "the door reports success",
+            "in the response of door, `success` is True",
             expected=True,
             actual=response.success,
             hints=(
@@ -154,7 +154,7 @@ def _delivers(
     meanwhile = battery.count - before
     feedback.wait(PARCELS, SETTLING)
     context.expect(
-        "feedback comes after each parcel",
+        "the node publishes feedback after each parcel",
         expected=[1, 2, 3],
         actual=_counts(feedback),
         hints="The feedback is wrong. After each parcel, publish the number of delivered parcels: 1, 2, 3.",
@@ -169,7 +169,7 @@ def _delivers(
         ),
     )
     context.require(
-        "battery continues during a delivery",
+        "the node continues to publish the battery during a delivery",
         holds=meanwhile >= 2,
         expected=f"about {PARCELS * EACH / PERIOD:.0f} values",
         actual=meanwhile,
@@ -181,7 +181,7 @@ def _delivers(
     charge = 100.0 - PARCELS
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     context.expect(
-        "each delivered parcel costs 1 percent",
+        "each delivered parcel reduces the charge by 1 percent",
         expected=charge,
         actual=battery.arrivals[-1].fields["data"],
         hints=[
@@ -234,7 +234,7 @@ def _cancels(
     charge = before_it - int(client.get_result().fetched)
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     context.expect(
-        "each delivered parcel costs 1 percent",
+        "each delivered parcel reduces the charge by 1 percent",
         expected=charge,
         actual=battery.arrivals[-1].fields["data"],
         hints=[
@@ -269,7 +269,7 @@ def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, c
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     battery.during(3 * PERIOD)  # Wait for further messages, because a wrong charge may follow.
     context.expect(
-        "an impossible delivery delivers nothing",
+        "an aborted delivery delivers no parcels",
         expected=f"a charge of {charge:g}",
         actual=f"a charge of {battery.arrivals[-1].fields['data']:g}",
         hints=(
@@ -283,7 +283,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
     """Send a goal with one parcel too many, and a goal with the highest possible number of parcels."""
     _aborts_at_once(context, client, capacity, EACH)
     context.expect(
-        "an impossible delivery delivers nothing",
+        "an aborted delivery delivers no parcels",
         expected=0,
         actual=client.get_result().fetched,
         hints=[
@@ -302,7 +302,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
     _ends_as(
         context,
         client,
-        "a delivery of as many parcels as the capacity succeeds",
+        "a delivery succeeds if the number of parcels is equal to the capacity",
         GoalStatus.SUCCEEDED,
         (
             "The robot refused an allowed delivery. Abort a goal only if it has more parcels than "
@@ -324,7 +324,7 @@ def _aborts_at_once(
     _ends_as(
         context,
         client,
-        "a delivery of more parcels than the capacity is aborted",
+        "the robot aborts a delivery if the number of parcels is above the capacity",
         GoalStatus.ABORTED,
         (
             "The delivery was not aborted, although it has more parcels than the capacity. Compare "
@@ -333,7 +333,7 @@ def _aborts_at_once(
     )
     took = time.monotonic() - began
     context.require(
-        "an impossible delivery ends immediately",
+        "a delivery of too many parcels ends immediately",
         holds=took < NOT_AT_ONCE * min(each * capacity, LONG),
         expected="a goal that ends before the first parcel",
         actual=f"a goal that ended after {took:.1f} s",

@@ -34,8 +34,8 @@ UNFIT = {
         "Use the kind of interface that returns a response after a short action."
     ),
     "deliver": (
-        "The client wants progress reports, and it wants to cancel the delivery. Only one kind of "
-        "interface offers both."
+        "The client wants progress reports, and it wants to cancel the delivery. Use the kind of "
+        "interface that offers both."
     ),
 }
 MISSING = 'The node offers nothing with this name. Use the three names "battery", "door" and "deliver".'
@@ -91,9 +91,9 @@ def offers_what_fits(context: CheckContext, robot: Robot) -> None:
     for name, kind in FITTING.items():
         actual = kind_of(seen, robot, name)
         context.require(
-            f"{name} has the kind of interface that fits",
+            f"{name} has the right kind of interface",
             holds=actual == kind,
-            expected="an interface that fits",
+            expected="the right kind of interface",
             actual=f"{'an' if actual == 'action' else 'a'} {actual}" if actual else "nothing with this name",
             hints=UNFIT[name] if actual else ABSOLUTE if _elsewhere(seen, robot, name) else MISSING,
         )

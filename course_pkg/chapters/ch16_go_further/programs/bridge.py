@@ -37,9 +37,9 @@ def answered(text: str | bytes) -> dict[str, JSON]:
     try:
         request = json.loads(text)
     except ValueError as error:
-        return _error(f"no JSON: {error}")
+        return _error(f"the text is not valid JSON: {error}")
     if not isinstance(request, dict) or request.get("op") != "call_service" or not request.get("service"):
-        return _error("the only op of this bridge is call_service, with the name of a service")
+        return _error('the message must be an object with "op": "call_service" and the name of a service')
     name = str(request["service"])
     try:
         values: JSON = _called(name, request.get("args", {}))
@@ -61,9 +61,11 @@ def _called(name: str, args: JSON) -> JSON:
     """Call a service with named or positional fields, and return the fields of its response."""
     cls = rosservice.get_service_class_by_name(name)
     if cls is None:
-        raise ValueError(f"the type of service [{name}] is not known here")
+        raise ValueError(f"the bridge does not know the type of service [{name}]")
     if not isinstance(args, (dict, list)):
-        raise ValueError("args must be an object (fields by name) or an array (fields by position)")
+        raise ValueError(
+            "args must be an object with the fields by name, or an array with the fields by position"
+        )
     request = cls._request_class()
     genpy.message.fill_message_args(request, [args] if isinstance(args, dict) else args)
     return _fields(BoundedProxy(name, cls, timeout=TIMEOUT)(request))
@@ -124,4 +126,4 @@ def main() -> None:
             error.strerror,
         )
         raise SystemExit(1) from error
-    rospy.signal_shutdown("told to end")
+    rospy.signal_shutdown("the bridge has ended")

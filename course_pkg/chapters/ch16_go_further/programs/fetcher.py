@@ -22,7 +22,9 @@ def fetch(goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
     If the goal is cancelled, the robot stops after the current thing.
     """
     if goal.things < 0 or not 0.0 <= goal.seconds <= LONGEST:
-        server.set_aborted(FetchResult(), f"no robot fetches {goal.things} things in {goal.seconds:g} s each")
+        server.set_aborted(
+            FetchResult(), (f"the goal is impossible: {goal.things} things in {goal.seconds:g} s each")
+        )
         return
     for fetched in range(goal.things):
         if server.is_preempt_requested():
