@@ -83,7 +83,13 @@ def _counts(
                 str(sum(counts.values())),
                 ("The response contains the number of all calls. Store a separate count for each session."),
             ),
-            ("1", "In each call, the count starts at 0 again. Create the map outside the handler."),
+            (
+                "1",
+                (
+                    "The response to every call in this session is 1. Outside the handler, store a map with "
+                    "one count for each session, for sessions with any name."
+                ),
+            ),
             (
                 str(counts[session] - 1),
                 (
