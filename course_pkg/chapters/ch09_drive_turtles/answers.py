@@ -397,6 +397,9 @@ replace("    publisher = rospy", """    last = [None]
 replace("Twist, publisher.publish)", "Twist, follow)")
 # %% 09.5 wrong: pauses in the callback | hint: Some velocities are missing
 replace('Twist, publisher.publish)', 'Twist, lambda message: (publisher.publish(message), rospy.sleep(0.3)), queue_size=1)')
+# %% 09.5 wrong: publishes only the first forty velocities | hint: The program stopped after some velocities
+replace("    publisher = rospy", "    left = [None] * 40\n    publisher = rospy")
+replace("Twist, publisher.publish)", "Twist, lambda message: left and (left.pop(), publisher.publish(message)))")
 # %% 09.5 wrong: publishes the previous velocity | hint: The program did not publish each received velocity once
 replace('    publisher = rospy', '    newest = [Twist()]\n\n    def late(message):\n        publisher.publish(newest[0])\n        newest[0] = message\n\n    publisher = rospy')
 replace('Twist, publisher.publish)', 'Twist, late)')

@@ -203,7 +203,7 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
         started = _started_as(done.out, name)
         own = rf"(\w+=\S* )*/\S*{file.package}/scripts/{program.command}( |$)"
         context.require(
-            "each node starts the right program",
+            "roslaunch finds the program of each node",
             holds=any(re.match(own, line) for line in started),
             expected=f"{program.command} of {file.package} for /{name.partition(',')[0]}",
             actual=started[0] if started else telling_line(done.out),

@@ -109,7 +109,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.becomes(STRAIGHT, "before the first call, the turtle goes straight ahead at 1.0 m/s", AT_FIRST)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream, context.random.integer(1, 2))
-        _counts_each_call(toggle, stream, 2 * context.random.integer(8, 20) + 1)
+        _counts_each_call(toggle, stream, 2 * context.random.integer(25, 40) + 1)
         stream.only(STRAIGHT, TURNING)
         context.fulfilled(TOGGLED_BY_CALL)
         stream.has_rate(

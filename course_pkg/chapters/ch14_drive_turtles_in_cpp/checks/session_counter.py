@@ -37,10 +37,10 @@ def count_sessions(context: CheckContext) -> None:
         world.serves(running, "count")
         service = context.service(world.name("count"), TRIGGER, timeout=WITHIN)
         first = context.random.word()
-        more = [context.random.word() for _ in range(context.random.integer(2, 8))]
+        more = [context.random.word() for _ in range(context.random.integer(3, 8))]
         sessions = [first, first.upper(), f"{first}{more[0]}", *more]
         counts = dict.fromkeys(sessions, 0)
-        for session in context.random.shuffled(sessions * 3):
+        for session in context.random.shuffled(sessions * 6):
             counts[session] += 1
             _counts(context, service.name, service.kind, session, counts)
         context.fulfilled(COUNTED)

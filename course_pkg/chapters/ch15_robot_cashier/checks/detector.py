@@ -114,6 +114,8 @@ def the_detector(context: CheckContext) -> None:
         vision.show(False)
         _finds_nobody(context, detect, 0.0)
         _finds_nobody(context, detect, context.random.number(1.2, 1.5))
+        for _ in range(context.random.integer(40, 60)):
+            _finds_nobody(context, detect, 0.0)
         context.fulfilled(WAITED)
         _serves_several_callers(context, detect, vision)
         context.fulfilled(SEVERAL)
