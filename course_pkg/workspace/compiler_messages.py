@@ -22,8 +22,8 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     (
         r"(?:no matching function for call to|call of overloaded) .*advertiseService.*<lambda",
         "advertiseService cannot use this lambda function directly.",
-        "Store the lambda function in a boost::function<bool(TYPE::Request&, TYPE::Response&)>, and pass this "
-        "object.",
+        "Store the lambda function in a boost::function<bool(TYPE::Request&, TYPE::Response&)>, and pass "
+        "this object.",
     ),
     (
         r"no matching function for call to .*advertiseService",

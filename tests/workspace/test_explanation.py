@@ -261,10 +261,10 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
 
 # The error messages of GCC 12 for a lambda function as a handler: without and with a type in < >.
 LAMBDAS = [
-    "no matching function for call to ‘ros::NodeHandle::advertiseService(const char [4], main(int, char**)::"
-    "<lambda(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)>)’",
-    "call of overloaded ‘advertiseService(const char [4], main(int, char**)::"
-    "<lambda(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)>)’ is ambiguous",
+    "no matching function for call to 'ros::NodeHandle::advertiseService(const char [4], main(int, char**)::"
+    "<lambda(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)>)'",
+    "call of overloaded 'advertiseService(const char [4], main(int, char**)::"
+    "<lambda(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)>)' is ambiguous",
 ]
 
 

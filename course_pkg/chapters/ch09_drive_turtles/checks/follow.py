@@ -241,7 +241,7 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
 
 
 def _the_last(context: CheckContext, driver: Driver, subscription: Subscription) -> None:
-    """Publish a random number of velocities at a high rate; assert that the program publishes the last one."""
+    """Publish a random number of velocities at a high rate; the program must publish the last one."""
     count = context.random.integer(150, 250)
     velocities = [_velocity(number / 100, 0.0, 0.0) for number in range(1, count + 1)]
     topic = driver.world.name("turtle1/cmd_vel")
@@ -252,8 +252,8 @@ def _the_last(context: CheckContext, driver: Driver, subscription: Subscription)
         expected=f"the last of {count} velocities",
         actual="another velocity",
         hints=(
-            "The program stopped after some velocities. In the callback, publish each message, for any number "
-            "of messages."
+            "The program stopped after some velocities. In the callback, publish each message, for any "
+            "number of messages."
         ),
     )
 

@@ -208,8 +208,8 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
             expected=f"{program.command} of {file.package} for /{name.partition(',')[0]}",
             actual=started[0] if started else telling_line(done.out),
             hints=(
-                "A node starts a wrong program. In its <node> tag, set \"pkg\" to the name of your package "
-                "and \"type\" to the file name of your own program, and do not include another launch file."
+                'A node starts a wrong program. In its <node> tag, set "pkg" to the name of your package '
+                'and "type" to the file name of your own program, and do not include another launch file.'
             ),
         )
     for name in ("turtlesim", DRIVER):

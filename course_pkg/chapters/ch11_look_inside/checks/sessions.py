@@ -123,8 +123,8 @@ def _wrong_total(amount: int, calls: int, everything: int) -> Hints:
         (
             everything,
             (
-                "The total also contains the amounts of other sessions. Store one total for each session in a "
-                'dict, with the header field "session" as the key.'
+                "The total also contains the amounts of other sessions. Store one total for each session in "
+                'a dict, with the header field "session" as the key.'
             ),
         ),
         (
@@ -262,7 +262,7 @@ def _why_refused(message: str, refused: str) -> str:
             "At the first call of a session, the dict has no total for this session. Start with the total 0."
         )
     if "cannot process request: service [" in message:
-        return "Your handler called a different service, and this call failed. Calculate the total in your class."
+        return "Your handler called a different service, and this call failed. Calculate the total yourself."
     if "cannot process request" in message:
         return refused
     return (

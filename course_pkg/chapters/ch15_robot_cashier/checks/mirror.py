@@ -38,8 +38,8 @@ OTHER_TIME = (
 )
 LATE = "The mirror images arrive late. Publish each mirror image in the callback, without a wait or a pause."
 STOPPED = (
-    "The node stopped after some mirror images. In the callback, publish the mirror image of each valid joint "
-    "state, for any number of messages."
+    "The node stopped after some mirror images. In the callback, publish the mirror image of each valid "
+    "joint state, for any number of messages."
 )
 ZEROS = (
     "The node published zeros for an invalid joint state, so the arm would move to these positions. "
