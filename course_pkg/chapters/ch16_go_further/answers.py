@@ -61,6 +61,9 @@ class Fetcher:
             self.server.publish_feedback(FetchFeedback(done))
         self.server.set_succeeded(FetchResult(done))
 
+# %% 16.1 wrong: fetches at most fifty things | hint: The robot stopped before it had fetched all things
+replace("range(goal.things)", "range(min(goal.things, 50))")
+replace("fetched=goal.things", "fetched=min(goal.things, 50)")
 # %% 16.1 wrong: never checks for a cancellation | hint: Call is_preempt_requested() before the robot fetches
 replace("\n            if self.server … return", "")
 # %% 16.1 wrong: uses one count for all goals | hint: The result also counts the things of the previous goal

@@ -14,7 +14,7 @@ from course_pkg.checking.plain_values import ServiceClass
 
 PROGRAM = cpp("session_counter")
 TRIGGER = "std_srvs/Trigger"
-WITHIN = 4.0  # WITHIN is the time limit in s for a call.
+WITHIN = 8.0  # WITHIN is the time limit in s for a call.
 COUNTED = "Count the calls of each session separately."
 
 
