@@ -10,7 +10,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -64,12 +64,39 @@ def pull(repository: str, folder: Path) -> None:
     environment = {**os.environ, "GIT_CONFIG_SYSTEM": str(Path(repository).parent / GIT_SETTINGS)}
     command = [sys.executable, "-m", "nbgitpuller.pull", f"file://{repository}", BRANCH, str(folder)]
     try:
+        if folder.is_dir() and not (folder / ".git").exists():
+            _make_repository(repository, folder, environment)
         done = subprocess.run(command, env=environment, timeout=PULL_TIMEOUT, check=False)
         failure = f"exit status {done.returncode}" if done.returncode else ""
     except subprocess.TimeoutExpired:
         failure = f"no end within {PULL_TIMEOUT:g} s"
+    except subprocess.CalledProcessError as error:
+        failure = f"git: {error.stderr.strip() or error}"
     if failure:
         sys.stderr.write(f"The released notebooks were not copied to {folder}: {failure}.\n")
+
+
+def _make_repository(repository: str, folder: Path, environment: Mapping[str, str]) -> None:
+    """Turn a folder that `course lab` made before into a clone of the repository.
+
+    A file of an earlier release gets the newest version. All other files of the student do not change. Raises
+    subprocess.CalledProcessError if git fails.
+    """
+
+    def git(*arguments: str, at: Path = folder) -> str:
+        command = ["git", "-C", str(at), *arguments]
+        return subprocess.run(
+            command, env=environment, timeout=PULL_TIMEOUT, check=True, capture_output=True, text=True
+        ).stdout
+
+    with tempfile.TemporaryDirectory(prefix=".course-", dir=folder) as clone:
+        git("clone", "-q", "--no-checkout", "--branch", BRANCH, f"file://{repository}", ".", at=Path(clone))
+        Path(clone, ".git").rename(folder / ".git")
+    git("reset", "-q")
+    released = {line.partition(" ")[0] for line in git("rev-list", "--objects", BRANCH).splitlines()}
+    for name in git("diff", "--name-only", "--diff-filter=M", "-z").split("\0"):
+        if name and git("hash-object", name).strip() in released:
+            git("checkout", "-q", "--", name)
 
 
 def _serve() -> None:

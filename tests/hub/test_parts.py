@@ -100,6 +100,34 @@ def test_a_new_release_keeps_the_students_work(tmp_path: Path) -> None:
     assert (home / "notebooks" / "01_b.ipynb").read_text() == "new\n"
 
 
+def test_a_release_is_merged_into_a_folder_without_git(tmp_path: Path) -> None:
+    """In a folder that `course lab` made, files of an old release are updated, and the student's are kept."""
+    course, home = tmp_path / "course", tmp_path / "home" / "ros-course"
+    for name in ("notebooks", "figures"):
+        (course / name).mkdir(parents=True)
+    own = home / "notebooks"
+    own.mkdir(parents=True)
+    repository = tmp_path / "released" / "ros-course"
+    for text in ("first release\n", "second release\n"):
+        for name in ("00_a.ipynb", "01_b.ipynb", "02_c.ipynb"):
+            (course / "notebooks" / name).write_text(text)
+        write_repository(Places(course, tmp_path), repository)
+    for name, text in {
+        "00_a.ipynb": "first release\n",
+        "01_b.ipynb": "my work\n",
+        "mine.txt": "mine\n",
+    }.items():
+        (own / name).write_text(text)
+    pull(str(repository), home)
+    texts = {path.name: path.read_text() for path in own.iterdir()}
+    assert texts == {
+        "00_a.ipynb": "second release\n",
+        "01_b.ipynb": "my work\n",
+        "02_c.ipynb": "second release\n",
+        "mine.txt": "mine\n",
+    }
+
+
 def test_the_proxy_is_pinned() -> None:
     """The lock file of the JupyterHub proxy contains no address of a package registry."""
     lock = Path(__file__).parents[2] / "deploy" / "jupyterhub" / "package-lock.json"

@@ -66,7 +66,7 @@ CASES = Cases(
 @part(
     "12.6",
     points=2,
-    goal="For each of the six errors, choose the right policy of the client.",
+    goal="For each of the six errors, choose the right policy for the client.",
     needs=["policies"],
 )
 def choose_a_policy(context: CheckContext) -> None:

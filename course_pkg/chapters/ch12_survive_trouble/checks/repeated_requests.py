@@ -61,8 +61,8 @@ ONLY_TAKE = (
 )
 SAME_NUMBER = "Two requests got the same receipt number. Hold the lock while you count the receipts."
 ANOTHER_TILL = (
-    "A second Till object used the receipts of the first Till object, so it treated a new request as a "
-    "repetition. Create the dict in __init__, and store it in self."
+    "A second Till object used the receipts of the first Till object, so the till treated a new "
+    "request as a repetition. Create the dict in __init__, and store it in self."
 )
 NOTHING = "The handler returned None. Return a ChargeResponse in every case."
 STUCK = (

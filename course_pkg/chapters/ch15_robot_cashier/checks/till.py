@@ -36,8 +36,8 @@ SET_HINTS: Hints = [
     (
         matches("jam"),
         (
-            "The printer got two lines at the same time. Hold one lock while you print a line and store "
-            "its price."
+            "The printer got two lines at the same time. Hold one lock while you print a line and "
+            "store the price."
         ),
     ),
     (
