@@ -421,13 +421,15 @@ replace("ServiceProxy(till", 'ServiceProxy("/till"')
 # %% 12.3 wrong: offers its own till if an attempt fails | hint: pay() returned a number that the till did not send
 replace("        time.sleep(min", "        return _own_till(till, request_id, cents)\n        time.sleep(min")
 replace("def pay(", """def _own_till(till, request_id, cents):
-    own = rospy.Service(till, Charge, lambda request: [0])
+    own = rospy.Service(till, Charge, lambda request: [1])
     receipt = rospy.ServiceProxy(till, Charge)(request_id, cents).receipt
     own.shutdown("paid")
     return receipt
 
 
 def pay(""")
+# %% 12.3 wrong: returns 0 if an attempt fails | hint: Return only a receipt that the till has sent
+replace("        time.sleep(min", "        return 0\n        time.sleep(min")
 # %% 12.3 wrong: calls the till twice | hint: The till had sent a receipt
 replace("return call_within", "call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            return call_within")
 # %% 12.3 wrong: raises another exception after a refusal | hint: pay() raised a different error

@@ -114,6 +114,10 @@ def pays_after(
         "at the end, the till has charged the payment exactly once",
         expected=1,
         actual=len(books.charged) - charged,
+        hints=(
+            "The till did not charge this payment exactly once. Return only a receipt that the till has sent, "
+            "and use the same id in each attempt."
+        ),
     )
     return len(requests)
 
