@@ -415,7 +415,7 @@ class Sessions:
 
 # %% 11.4 wrong: uses a dict in the class | hint: A new Sessions object already had a total
 replace("    def __init__(self):\n        self.sessions = {}\n", "    sessions = {}\n")
-# %% 11.4 wrong: uses one total for all sessions | hint: The response contains the total of all sessions
+# %% 11.4 wrong: uses one total for all sessions | hint: The total also contains the amounts of other sessions
 replace('request._connection_header.get("session")', '"everybody"')
 # %% 11.4 wrong: forgets the total after each call | hint: The response contains only the amount of this call
 replace("self.sessions.get(session, (0, 0))", "0, 0")
@@ -470,6 +470,10 @@ my_add_up = subprocess.Popen(["rosrun", "course_pkg", "session_server", "/add_up
 rospy.wait_for_service("/my_add_up", timeout=15)
 # %% 11.4 wrong: reads a field with another name | hint: The header had the field "session", but your handler refused the call
 replace('get("session")', 'get("sessions")')
+# %% 11.4 wrong: calls the course's service | hint: Your handler called a different service, and this call failed
+replace("        total, calls", """        add_up = rospy.ServiceProxy("/add_up", AddUp, headers={"session": session})
+        return AddUpResponse(add_up(request.amount).total, 1)
+        total, calls""")
 # %% 11.4 wrong: begins the total with 1 | hint: The field `total` is wrong
 replace("(0, 0)", "(1, 0)")
 # %% 11.4 wrong: forgets to return | hint: The handler returned None. Return an AddUpResponse
@@ -598,6 +602,10 @@ replace("\n        self.connect()\n\n    def connect(self):", "")
 replace("\n        self.proxy.close()\n        self.connect()\n        return self.proxy(length, width, height)", """
         proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
         return proxy(length, width, height)""")
+# %% 11.5 wrong: returns the last response if the connection is broken | hint: The server sent a different response to this call
+based_on("examines the error message")
+replace("            return self.proxy(length, width, height)\n", "            self.last = self.proxy(length, width, height)\n            return self.last\n")
+replace("        self.connect()\n        return self.proxy(length, width, height)", "        self.connect()\n        return self.last")
 # %% 11.5 wrong: returns None after the second failure | hint: The second call also failed, so there is no response
 based_on("uses a loop with two iterations")
 replace(" or attempt == 2", "")

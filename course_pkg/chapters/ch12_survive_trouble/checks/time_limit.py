@@ -260,6 +260,13 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
             (None, "The time was over, but the function returned None. Raise TimeoutError."),
             (matches("^TimesUp"), ERRORS[0][1]),
             (
+                matches("transport error"),
+                (
+                    "When the time was over, the function interrupted the call. Do not interrupt the call: "
+                    "make it in a daemon thread, and wait for this thread with join(seconds)."
+                ),
+            ),
+            (
                 ANYTHING,
                 (
                     "The function did not raise TimeoutError. Raise this error if the thread is still alive "

@@ -202,6 +202,11 @@ def _pauses_between_calls(context: CheckContext, *runs: list[float]) -> None:
 
 def _why_not_third(finished: Finished, count: int) -> str:
     if count == 1 and finished.status == 0:
+        if any(_numbers(finished.out)):
+            return (
+                "The server refused the call, but the program printed a volume that the server did not send. "
+                "Do not calculate the volume: call the server again."
+            )
         return (
             "call() returned false, but the program printed an empty response. Test the return "
             "value of call() before you print the volume."
