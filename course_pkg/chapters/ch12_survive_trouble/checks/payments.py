@@ -115,8 +115,8 @@ def pays_after(
         expected=1,
         actual=len(books.charged) - charged,
         hints=(
-            "The till did not charge this payment exactly once. Return only a receipt that the till has sent, "
-            "and use the same id in each attempt."
+            "The till did not charge this payment exactly once. Return only a receipt that the till has "
+            "sent, and use the same id in each attempt."
         ),
     )
     return len(requests)
