@@ -236,7 +236,7 @@ def volume_or_none(service, length, width, height):
 
 # %% 06.3 wrong: calculates the volume without a call | hint: The function returned the product
 replace("rospy.ServiceProxy(service, geometry)(length, width, height).volume", "length * width * height")
-# %% 06.3 wrong: does not catch a refusal | hint: This failed call also raised
+# %% 06.3 wrong: does not catch a refusal | hint: In this case, too, the call raised
 replace("rospy.ServiceException:", 'rospy.ServiceException as error:\n        if "unavailable" not in str(error):\n            raise')
 # %% 06.3 wrong: calls the service twice | hint: The function called the service more than once.
 replace("        return rospy", "        rospy.ServiceProxy(service, geometry)(length, width, height)\n        return rospy")

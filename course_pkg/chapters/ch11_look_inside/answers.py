@@ -34,7 +34,7 @@ replace('"{name}={value}".encode()', '"{name}={value}"')
 replace("+ text", "+ text.encode()")
 # %% 11.1 wrong: writes name and value as in HTTP | hint: The text between the name
 replace("{name}={value}", "{name}: {value}")
-# %% 11.1 wrong: omits a field with an empty value | hint: A field with an empty value is missing
+# %% 11.1 wrong: omits a field with an empty value | hint: Your function left out a field, because its value is empty
 replace("        text = f", "        if not value:\n            continue\n        text = f")
 # %% 11.1 wrong: writes no length for each field | hint: The length of a field is missing
 replace('body = b"" … text)) + text', 'body = "".join(f"{name}={value}" for name, value in fields.items()).encode()')

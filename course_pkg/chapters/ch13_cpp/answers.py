@@ -222,7 +222,7 @@ replace("3;", "2;")
 replace("\n      return 0;\n    }\n    ros::WallDuration(0.2).sleep();\n  }\n  return 1;", "\n    }\n  }\n  return 0;")
 # %% 13.3 wrong: exits with status 0 after three failed calls | hint: No call got a response
 replace("\n  return 1;", "\n  return 0;")
-# %% 13.3 wrong: calculates the volume without the response | hint: The server sent a different volume
+# %% 13.3 wrong: calculates the volume without the response | hint: The printed volume is not the volume that the server sent
 replace("box.response.volume", "box.request.length * box.request.width * box.request.height")
 # %% 13.3 wrong: calculates the volume if the server refuses | hint: but the program printed a volume that the server did not send
 replace("if (client.call(box)) {", "if (!client.call(box)) box.response.volume = box.request.length * box.request.width * box.request.height;\n    {")

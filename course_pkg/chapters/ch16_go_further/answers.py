@@ -359,7 +359,7 @@ replace("FetchFeedback(fetched", "FetchFeedback(delivered")
 replace("delivered + 1", "delivered")
 # %% 16.4 wrong: returns an empty result | hint: The result is wrong
 replace("set_succeeded(FetchResult(fetched=goal.things))", "set_succeeded()")
-# %% 16.4 wrong: publishes no charge during a delivery | hint: The battery sent no values during the delivery
+# %% 16.4 wrong: publishes no charge during a delivery | hint: The node published no charge during the delivery
 replace("robot.battery.publish(robot.charge)", "if not robot.server.is_active():\n            robot.battery.publish(robot.charge)")
 # %% 16.4 wrong: does not reduce the charge | hint: The charge did not change. Subtract 1
 replace("            self.charge -= 1\n", "")

@@ -106,8 +106,8 @@ def a_counter_that_resets(context: CheckContext) -> None:
             ),
             (
                 matches(r"args are\(,\)"),
-                "The handler of /count returned an empty response. Check whether you exchanged the "
-                "handlers of the two services.",
+                "The handler of /count returned an empty response. Use the handler of "
+                "/reset_count only for /reset_count.",
             ),
         ],
     )

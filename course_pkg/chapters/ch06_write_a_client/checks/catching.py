@@ -168,7 +168,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
         hints=[
             (
                 matches("^ServiceException.*(responded with|transport)"),
-                "This failed call also raised rospy.ServiceException. Return None for each "
+                "In this case, too, the call raised rospy.ServiceException. Return None for each "
                 "rospy.ServiceException, and ignore the text of its error message.",
             ),
             (

@@ -211,8 +211,8 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed({name: value for name, value in fields.items() if value}),
-            "A field with an empty value is missing. Write this field, too: write its name and the "
-            "equals sign.",
+            "Your function left out a field, because its value is empty. Write its name and the equals "
+            "sign, too.",
         ),
         (
             _packed(fields, code="latin-1", count=len),

@@ -349,8 +349,8 @@ def _prints(context: CheckContext, finished: Finished, volume: float, assertion:
 def _why_not_printed(finished: Finished, numbers: list[float]) -> str:
     if finished.status == 0 and numbers:
         return (
-            "The server sent a different volume. Print box.response.volume, and do not calculate "
-            "the volume in the client."
+            "The printed volume is not the volume that the server sent. Print box.response.volume, and do "
+            "not calculate the volume in the client."
         )
     return (
         "The program does not print the volume, or it ends with a wrong exit status. Print "
