@@ -26,7 +26,7 @@ PROGRAM = script("spawn_turtle_plus")
 ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # The speed is in m/s.
-LATER = 2.0  # The service /toggle_forward starts after this many s.
+LATER = 2.0  # The service /toggle_forward starts after this time in s.
 TOO_LATE = (
     "The service /toggle_forward starts only after your program has called /spawn. Wait for each "
     "service immediately before its call."

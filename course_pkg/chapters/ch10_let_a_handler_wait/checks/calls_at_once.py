@@ -16,9 +16,9 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
 TRIGGER = "std_srvs/Trigger"
-TOGETHER = 1.0  # The server waits at most this many s until the other calls have arrived.
+TOGETHER = 1.0  # The server waits up to this time in s until the other calls have arrived.
 LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
-# The student's function must return within this many s after the last response. If a function sleeps for a
+# The student's function must return within this time in s after the last response. If a function sleeps for a
 # fixed time instead of joining its threads, it can take longer.
 PROMPT = 0.3
 # In one run, two calls take a random time between these limits (s). The time is longer than two joins with a
