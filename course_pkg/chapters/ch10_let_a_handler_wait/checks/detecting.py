@@ -18,7 +18,7 @@ SLACK = 1.5  # SLACK is the additional time in s that a call may take on a busy 
 # This value of `patience` (s) is for calls without a customer. A handler that waits twice as long exceeds the
 # time limit of the call.
 LONG = 2.0
-# A customer comes after this many s. A handler that polls twice per second then responds 0.48 s late.
+# A customer comes after this time in s. A handler that polls twice per second then responds 0.48 s late.
 LATER = 0.52
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
 CHANGE = 2.2  # After this time in s, the customers at the counter change again.

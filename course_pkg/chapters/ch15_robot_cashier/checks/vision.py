@@ -22,9 +22,9 @@ DARK = 96
 # On a busy machine, the message after a frame may take up to this time in s; it usually takes 5 ms.
 ANSWER = 8.0
 RAPID = 0.005  # In a long series, the time between two frames is RAPID s.
-LAST = 10.0  # On a busy machine, the message for the last frame of the series may arrive this many s later.
-AGAIN = 0.03  # A wrong second message would arrive within this many s.
-SILENT = 0.25  # A wrong message after a malformed frame would arrive within this many s.
+LAST = 10.0  # On a busy machine, the message for the last frame of the series may need this time in s.
+AGAIN = 0.03  # A wrong second message would arrive within this time in s.
+SILENT = 0.25  # A wrong message after a malformed frame would arrive within this time in s.
 
 AVERAGE = (
     "A fifth of the points is dark, so this frame shows a customer. Count the dark points, and do "
