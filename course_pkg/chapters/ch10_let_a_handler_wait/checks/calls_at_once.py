@@ -24,7 +24,8 @@ PROMPT = 0.3
 # In one run, two calls take a random time between these limits (s). The time is longer than two joins with a
 # timeout of 1 s.
 SHORTEST, LONGEST = 2.2, 2.8
-# If the student's function returns too late, the check adds a run in which each call takes this additional time in s.
+# If the student's function returns too late, the check adds a run in which each call takes this additional
+# time in s.
 LONGER = 1.0
 
 # This code reports each call of a persistent proxy to the check. The thread that makes the call also sends
