@@ -129,7 +129,7 @@ class _Cell:
         return isinstance(called, ast.Name) and called.id in self._defined
 
     def _end_of_kept(self, node: Function) -> int:
-        """Return the position after the signature, the docstring, and a comment on the same line."""
+        """Return the position after the signature and the docstring; a comment after these is also kept."""
         documented = ast.get_docstring(node, clean=False) is not None
         end = self._end(node.body[0]) if documented else self._end_of_signature(node)
         rest = self.data[end:].split(b"\n", 1)[0]

@@ -24,10 +24,10 @@ from course_pkg.errors import AuthoringError
 from course_pkg.ros.process.supervised import temporary_folder
 from course_pkg.setup.progress import Progress
 
-CELL_TIMEOUT = 120  # A cell is stopped after this many s, because a reader should not wait longer.
+CELL_TIMEOUT = 120  # A cell is stopped after this time in s, because a reader should not wait longer.
 # Each core runs PER_CORE notebooks at the same time, because a notebook mostly waits for nodes and responses.
 PER_CORE = 3
-A_CELL = 2.0  # To estimate the running time of a notebook, add this many s for each cell.
+A_CELL = 2.0  # To estimate the running time of a notebook, add this time in s for each cell.
 
 Finished = Callable[[str, Notebook], None]
 

@@ -65,7 +65,8 @@ def _settle(output: Output, made_by: str, old: list[_Stored]) -> None:
     output["metadata"].setdefault(SVG, {})[MADE_BY] = made_by
     same = next((each for each in old if each.made_by == made_by and each.others == _others(output)), None)
     if same:
-        # A cell may show several plots with the same text, so each old plot is used only once.
+        # Several outputs of a cell may have the same digest and the same other data, so use each old picture
+        # only once.
         old.remove(same)
         output["data"][SVG] = same.picture
 

@@ -30,7 +30,7 @@ class SavedPanels:
         self._models = widgets[STATES]["state"] if STATES in widgets else {}
 
     def of(self, output: Output) -> SavedPanel | None:
-        """Return the panel that the output shows, or None."""
+        """Return the panel that the output shows, or None if the output shows no panel of the course."""
         view = output.get("data", {}).get(VIEW)
         if not isinstance(view, Mapping):
             return None

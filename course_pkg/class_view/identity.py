@@ -28,7 +28,7 @@ class Identity(Protocol):
     """Decides who owns a token."""
 
     async def student(self, token: str) -> str | None:
-        """Return the student who owns a token, or None.
+        """Return the student who owns a token, or None if no student owns it.
 
         Raises HubUnreachable if the hub does not answer.
         """
@@ -47,7 +47,7 @@ class LocalIdentity:
         self._tokens, self._teacher = tokens, teacher
 
     async def student(self, token: str) -> str | None:
-        """Return the student who owns a token, or None."""
+        """Return the student who owns a token, or None if no student owns it."""
         return self._tokens.student_of(token)
 
     async def is_teacher(self, token: str) -> bool:
@@ -89,7 +89,7 @@ class HubIdentity:
         self._users: dict[str, tuple[float, dict[str, Plain]]] = {}
 
     async def student(self, token: str) -> str | None:
-        """Return the name of the user who owns a token, or None."""
+        """Return the name of the user who owns a token, or None if no user owns it."""
         user = await self._user(token)
         return str(user["name"]) if user.get("kind") == "user" and user.get("name") else None
 

@@ -25,7 +25,7 @@ class Settings:
     """The settings that a teacher has chosen."""
 
     teacher: str  # the name that students see
-    days: float  # the results of a student are deleted this many days after the student's last result
+    days: float  # the number of days after a student's last result, before the student's results are deleted
     names: Mapping[str, str]  # a dict from usernames to students' names
 
 

@@ -70,7 +70,7 @@ class Tokens:
         return True
 
     def student_of(self, token: str) -> str | None:
-        """Return the student who owns a token, or None."""
+        """Return the student who owns a token, or None if no student owns it."""
         self.refresh()
         given = token.encode()
         found = [each for known, each in self._students.items() if hmac.compare_digest(known.encode(), given)]

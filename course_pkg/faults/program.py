@@ -23,7 +23,7 @@ from course_pkg.waiting import wait_until
 
 PLAYER = Path(__file__).with_name("player.py")
 READY = 15.0  # An interpreter has to start and import rospy within this time in s; the usual time is 0.3 s.
-LONGEST = 8000  # Only the last LONGEST bytes of an output are shown.
+LONGEST = 8000  # Only the last `LONGEST` bytes of an output are shown.
 INTERVAL = 0.01  # The state of a process is polled after each pause of this time in s.
 # The pattern matches a terminal's escape codes for colours and for the window title.
 _FOR_A_TERMINAL = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\a]*\a")

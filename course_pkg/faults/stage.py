@@ -205,10 +205,9 @@ class Stage:
         return {**local_environment(), **own, **more}
 
     def local(self, text: str) -> str:
-        """Return the text with the real namespace and the real port.
+        """Return a copy of `text` that contains the stage's namespace and the port of the stage's master.
 
-        In `text`, the stage's namespace replaces /lab, and the port of the stage's master replaces
-        MASTER_PORT.
+        The namespace replaces /lab, and the port replaces MASTER_PORT.
         """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 

@@ -43,7 +43,8 @@ BREAKS = re.compile("\r\n?|[\u2028\u2029]")
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
-MARKED = re.compile(r"-[0-9a-f]{10}")  # file_name() adds a suffix of this form to a changed name.
+# This is the pattern of the suffix that file_name() appends to each changed name.
+MARKED = re.compile(r"-[0-9a-f]{10}")
 
 
 def text(value: object, limit: int = LONG) -> str:

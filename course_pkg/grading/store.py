@@ -48,12 +48,18 @@ class Store:
             ) from error
 
     def find(self, key: str, submission: Submission) -> Grade | None:
-        """Return the grade that is stored under this key, with the data of the submission, or None."""
+        """Return the grade that is stored under this key, or None if no grade is stored under this key.
+
+        The returned grade also contains the data of the submission, such as the student's name.
+        """
         grade = self.load(key)
         return handed_in(grade, submission) if grade else None
 
     def load(self, key: str) -> Grade | None:
-        """Return the grade that is stored under this key, or None; this grade contains no student's name."""
+        """Return the grade that is stored under this key, or None if no readable grade is stored.
+
+        The returned grade contains no student's name.
+        """
         try:
             return grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
         except (OSError, ValueError, KeyError, TypeError):

@@ -183,10 +183,10 @@ def _require_protection(places: Places) -> None:
 
 
 def _closed(path: Path) -> Path | None:
-    """Return the folder or file that prevents other users from reading `path`, or None.
+    """Return the folder or file that prevents other users from reading `path`.
 
     The result is the first folder that other users cannot enter, or `path` itself if it is a file that they
-    cannot read.
+    cannot read. If other users can read `path`, the result is None.
     """
     for each in (*reversed(path.parents), path):
         mode = each.stat().st_mode

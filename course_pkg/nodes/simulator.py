@@ -17,7 +17,7 @@ from std_msgs.msg import UInt32
 from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
 
 DRAWING = 0.4  # The drawing of one picture takes this time in s.
-QUIET = 5.0  # The time between two warnings is at least this many s.
+QUIET = 5.0  # QUIET is the minimum time in s between two warnings.
 
 
 class Simulator:

@@ -37,8 +37,8 @@ LIMITS = {
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
     supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
 }
-# If a supervisor ends all processes because of a limit, the check of the part can still end with one of these
-# verdicts.
+# When a supervisor ends the processes of a part because of a limit, the check may report one of these
+# verdicts only because the processes have ended.
 STOPPED = (Verdict.FAILED, Verdict.UNDECIDED)
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",

@@ -19,8 +19,8 @@ from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
 
 START_TIMEOUT = 90.0  # The worker has to start within this time in s; without load, the start takes 2 s.
-# Each part has its own time limit. If the result is still missing this many s after the limit, the worker
-# itself has failed.
+# Each part has its own time limit. If the result is still missing after the limit and this additional time in
+# s, the worker itself has failed.
 SLACK = 45.0
 
 

@@ -1,4 +1,4 @@
-"""The completion of `course` for bash: the subcommands, their options, and the names of files."""
+"""The tab completion of `course` in bash: the subcommands, their options, and the names of files."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ HEAD, SHOULDERS = 0.14, 0.2
 def shop_picture(width: int, height: int, customers: int) -> bytes:
     """Return the picture in the encoding rgb8: rows of pixels, beginning at the top left.
 
-    Each pixel has three bytes. The picture shows at most MOST customers.
+    Each pixel has three bytes. The picture shows at most `MOST` customers.
     """
     return b"".join(
         _picture_row((row + 0.5) / height, width, height, min(customers, MOST)) for row in range(height)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # A waiting thread checks at least once in this time (s) whether the camera is silent.
 POLL = 0.25
-# If an Eye receives no valid frame for this many s, the state of the counter is unknown.
+# If an Eye receives no valid frame for this time in s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0
 
 Time: TypeAlias = "float | genpy.Time"  # a time on the clock that a Watch uses
@@ -79,13 +79,16 @@ class Watch:
             return came
 
     def next(self, after: int = 0) -> Customer | None:
-        """Return the customer with the lowest number above `after`, or None; this method does not wait."""
+        """Return the customer with the lowest number above `after`, or None if there is no such customer.
+
+        This method does not wait.
+        """
         return min((customer for customer in self._there if customer.number > after), default=None)
 
     def wait(self, after: int, patience: float, silence: float) -> Customer | None:
-        """Wait for a customer with a number above `after`; return the customer or None.
+        """Wait for a customer with a number above `after`; return this customer.
 
-        The maximum waiting time is `patience` (s).
+        If no such customer comes within the time `patience` (s), return None.
 
         Raises CameraSilent if no message has arrived for the time `silence` (s).
         """

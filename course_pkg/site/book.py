@@ -29,7 +29,8 @@ OPTIONS = (
     "--no-first-run",
     "--no-pdf-header-footer",
     "--generate-pdf-document-outline",
-    # This limit, in ms of the page's clock, is long enough to draw all panels.
+    # Before Chromium prints the page, its virtual clock runs for up to this time in ms. This time is long
+    # enough to draw all panels.
     "--virtual-time-budget=20000",
 )
 LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')

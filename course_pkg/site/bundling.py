@@ -22,7 +22,7 @@ ASSETS = HERE / "assets"
 BUILT = ("early.js", "fonts.css", "site.js", "LICENSES.txt")
 AXE = "axe.min.js"  # No page loads this file. The tests use it to check the pages.
 TESTS = Path(__file__).parents[2] / "tests" / "site"
-TIMEOUT = 300  # One npm command may take this many s, because it may download packages.
+TIMEOUT = 300  # One npm command may take up to this time in s, because it may download packages.
 
 
 def build(target: Path, names: Sequence[str] = (*BUILT, AXE)) -> list[Path]:

@@ -67,7 +67,7 @@ def _entry(term: str, meaning: str, texts: Sequence[tuple[Chapter, Notebook, Seq
 
 
 def _explained(term: str, notebook: Notebook, headings: Sequence[Heading]) -> Heading | None:
-    """Return the heading of the first section with the term in bold or italics, or None."""
+    """Return the heading of the first section with the term in bold or italics, or None without a match."""
     coming = iter(headings)
     current = None
     marked = re.compile(rf"\*{{1,2}}{re.escape(term)}s?\*{{1,2}}", re.IGNORECASE)

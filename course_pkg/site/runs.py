@@ -44,7 +44,7 @@ class Runs:
         self._shared = digest(self._package())
 
     def update(self, paths: Sequence[Path]) -> dict[Path, AuthoringError]:
-        """Run the notebooks whose code, or a file that the code uses, has changed, and store the outputs.
+        """Run each notebook again if its code, or a file that the code uses, has changed; store the outputs.
 
         Several notebooks run at the same time. Returns the errors of the notebooks that stopped before their
         last cell.

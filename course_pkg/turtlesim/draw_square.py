@@ -18,8 +18,8 @@ CORNER = math.pi / 2  # The turtle turns by this angle in rad at each corner.
 SPEED = 1.0  # This is the maximum velocity in m/s.
 TURN = 0.8  # This is the maximum angular velocity in rad/s.
 TOLERANCE = 0.01  # A side or corner may end with this error in m or rad.
-# The velocity is at most SLOW (in 1/s) times the remaining distance or angle. The turtle therefore slows down
-# before the end of a side or corner.
+# The velocity is at most `SLOW` (in 1/s) times the remaining distance or angle. The turtle therefore slows
+# down before the end of a side or corner.
 SLOW = 4.0
 
 

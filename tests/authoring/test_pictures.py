@@ -28,7 +28,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return a notebook as NotebookStore stores it if `before` was stored earlier."""
+    """Return what NotebookStore stores for `notebook` if the stored solution is the notebook `before`."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)

@@ -138,8 +138,8 @@ def panel_main() -> int:
 # after its time limit.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
-DEADLINE = 15.0  # A payment must end within this many seconds. The restart of a killed till needs about 1 s.
-GRACE = 2.0  # A payment that takes this many seconds more than DEADLINE counts as a hang.
+DEADLINE = 15.0  # A payment must end within this time in s. The restart of a killed till needs about 1 s.
+GRACE = 2.0  # A payment that takes more than DEADLINE + GRACE seconds counts as a hang.
 IN_THE_TILL = (
     "dies before it charges",
     "charges and dies",

@@ -173,7 +173,7 @@ def fuzz_main() -> None:
 # service, process, listening port or environment variable remained. The benchmark also measures the start and
 # the end of a plain node, because a fault that starts a server cannot be faster.
 
-BOUND = 3.0  # The benchmark counts the rounds that take longer than this many seconds.
+BOUND = 3.0  # The benchmark counts the rounds that take longer than this time in s.
 BARE = """
 import rospy
 from std_srvs.srv import Trigger

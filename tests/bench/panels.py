@@ -49,7 +49,7 @@ from tests.browser.pages import new_page, panel
 # graph: measures an update of the graph panel with 20 nodes and 40 topics, and the CPU time for an unchanged
 # graph.
 
-UPDATE_BAR = 150.0  # An update may take at most this many ms.
+UPDATE_BAR = 150.0  # An update may take up to this time in ms.
 IDLE_BAR = 2.0  # The panel may use at most this percentage of a core.
 NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
@@ -175,10 +175,10 @@ def graph_main() -> int:
 # `./course test` installs the browser.
 
 EVENTS, LENGTH = 2000, 10.0  # s
-# The first drawing may take at most this many ms. While the view moves, the page must draw at least this many
-# frames per second.
+# The first drawing may take up to this time in ms. While the view moves, the page must draw at least this
+# many frames per second.
 DRAW_BAR, PAN_BAR = 500.0, 30.0
-# The benchmark draws the timeline this many times, and moves the view for this many ms.
+# The benchmark draws the timeline this many times, and moves the view for this time in ms.
 REPEATS, TIMELINE_WATCH = 9, 2000
 PANELS = Path(__file__).parents[2] / "course_pkg" / "panels"
 DRAW = """async (state) => {
@@ -418,7 +418,7 @@ def topic_main() -> int:
 # types. The benchmark compares this time with the duration of `rossrv list`, which lists the same service
 # types in a terminal.
 
-TYPES_BAR = 100.0  # The type browser may need at most this many ms to open, after the import.
+TYPES_BAR = 100.0  # The type browser may need up to this time in ms to open, after the import.
 PACKAGES, TYPES = 60, 10
 RUNS = 9
 MANIFEST = "<package format='2'><name>{}</name><version>1.0.0</version></package>"

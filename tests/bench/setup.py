@@ -140,7 +140,8 @@ def tell_surroundings(system: Path) -> None:
 # rospy.
 
 ROUNDS = 21
-IMPORTS_BAR = 60.0  # The import of course_pkg may take at most this many ms more than the import of rospy.
+# The import of course_pkg may take longer than the import of rospy, by up to this time in ms.
+IMPORTS_BAR = 60.0
 PEER = "import rospy"
 STATEMENTS = {
     "course_pkg": "import rospy, course_pkg",

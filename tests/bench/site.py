@@ -163,7 +163,7 @@ def axe_main() -> None:
 
 SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
 BAR = 0.45  # A parallel run may take at most this fraction of the duration of a serial run.
-LIMIT = 3600.0  # One run may take at most this many seconds.
+LIMIT = 3600.0  # One run may take up to this time in s.
 
 
 def nbval_main() -> int:

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import pytest
 from playwright.sync_api import Browser, expect, sync_playwright
 
-TIMEOUT = 40_000  # The browser waits at most this many ms for a page.
+TIMEOUT = 40_000  # The browser waits up to this time in ms for a page.
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",

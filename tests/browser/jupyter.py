@@ -36,7 +36,7 @@ OPEN = """async (path) => {
   await shown.context.ready;
   await shown.sessionContext.ready;
 }"""
-CONNECTED = 90_000  # The kernel may need at most this many ms until it is idle.
+CONNECTED = 90_000  # The kernel may need up to this time in ms until it is idle.
 IDLE = "() => window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
 # This file contains the course's settings of JupyterLab.

@@ -18,7 +18,7 @@ HERE = Path(__file__).parent
 Colours = Literal["light", "dark"]
 # JupyterLab's own scripts have these addresses in a stack trace; the course's scripts have blob: addresses.
 JUPYTERLAB = re.compile(r"https?://[^ ]*/static/lab/")
-READY = 60_000  # On a busy machine, a browser, a server and a kernel need at most this many ms to start.
+READY = 60_000  # On a busy machine, a browser, a server and a kernel need up to this time in ms to start.
 HOST = (HERE / "host.html").read_text()
 
 # This function runs in the page and returns the texts with too little contrast.

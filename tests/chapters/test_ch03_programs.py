@@ -28,7 +28,7 @@ from tests.support import eventually, program, usual
 
 pytestmark = pytest.mark.usefixtures("master")
 
-FOR_GOOD = 600.0  # A customer stays this many seconds, which is longer than any test.
+FOR_GOOD = 600.0  # A customer stays this time in s, which is longer than any test.
 SERVES = {"shop_camera": "/let_in", "detector": "/detect_customer", "cashier": "/cashier/report"}
 
 

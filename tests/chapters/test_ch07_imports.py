@@ -1,4 +1,4 @@
-"""Chapter 07's import check distinguishes a script that never ends from a busy machine."""
+"""The import check of chapter 07 finds the reason for a slow import: an endless script or a busy machine."""
 
 from __future__ import annotations
 

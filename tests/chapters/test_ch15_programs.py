@@ -23,7 +23,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 node = join("student")
 """
-FOR_GOOD = 600.0  # A customer stays this many seconds, which is longer than any test.
+FOR_GOOD = 600.0  # A customer stays this time in s, which is longer than any test.
 LAUNCH = ("course_pkg", "robot_cashier.launch")
 
 

@@ -18,7 +18,7 @@ from course_pkg.checking.placed.host import CALLS, CONNECTIONS, LIMIT, PlacedObj
 from course_pkg.checking.plain_values import Value
 from course_pkg.waiting import wait_until
 
-SOON = 10.0  # On a busy machine, the reaction to an event may take this many seconds.
+SOON = 10.0  # On a busy machine, the reaction to an event may take up to this time in s.
 
 
 class Stuck(Exception):

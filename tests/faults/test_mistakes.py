@@ -1,4 +1,4 @@
-"""Tests that cause each mistake in the table, and that check the explanation of its symptom."""
+"""Tests of the table of mistakes: the tests cause each mistake and check the explanation of the symptom."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests that `course grade` does not start if a needed solution is missing."""
+"""`course grade` does not start if a needed solution is missing."""
 
 from __future__ import annotations
 

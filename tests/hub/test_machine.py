@@ -55,7 +55,7 @@ def address(folder: Path) -> Iterator[str]:
 def test_a_server_starts_where_namespaces_are_forbidden(address: str, folder: Path) -> None:
     """The student can work, and the log says that other users can reach the student's nodes.
 
-    The hub's pages are encrypted.
+    The address of the hub begins with https://.
     """
     assert address.startswith("https://")
     with Student(address, "anna", folder / "hub.pem") as anna:

@@ -76,6 +76,6 @@ def test_the_settings_are_those_of_course_lab(by_hand: Service) -> None:
 
 
 def test_the_course_enables_its_extension() -> None:
-    """The file that enables the extension is in the folder where Jupyter looks for it."""
+    """A configuration file in the virtual environment enables the server extension of the course."""
     enabled = Places.of().venv / "etc" / "jupyter" / "jupyter_server_config.d" / "course_pkg.json"
     assert '"course_pkg.lab.extension": true' in Path(enabled).read_text()

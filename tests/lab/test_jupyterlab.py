@@ -1,4 +1,4 @@
-"""Tests that start `course lab` with JupyterLab and a master."""
+"""Tests of `course lab` with JupyterLab and a master."""
 
 from __future__ import annotations
 

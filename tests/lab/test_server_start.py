@@ -1,4 +1,4 @@
-"""Tests that `course lab` opens its own server, even if another program takes the chosen port."""
+"""`course lab` opens its own server, even if another program takes the chosen port."""
 
 from __future__ import annotations
 

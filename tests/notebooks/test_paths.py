@@ -1,4 +1,4 @@
-"""Tests that README, the first page and the chapters contain the same paths, titles and times."""
+"""README, the first page and the chapters contain the same paths, titles and times."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests that each panel and plot in a stored solution has a picture."""
+"""Each panel and plot in a stored solution has a picture."""
 
 from __future__ import annotations
 

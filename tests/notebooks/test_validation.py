@@ -1,4 +1,4 @@
-"""Tests that run each notebook with nbval, in a kernel with its own master."""
+"""Tests of each notebook: nbval runs the notebook in a kernel with its own master."""
 
 from __future__ import annotations
 

@@ -224,7 +224,7 @@ def test_failures_in_plain_sentences(failed: int, words: str) -> None:
 
 
 def test_the_panel() -> None:
-    """The timeline is a widget, and its text/plain output is always the same."""
+    """The timeline is a widget; its text/plain output contains no data, so it is the same in every run."""
     panel = Timeline(recording(*call()))
     assert repr(panel) == "Timeline()"
     assert panel.recorded["length"] == 10_000_000

@@ -103,7 +103,7 @@ def test_a_turtle_that_leaves_and_comes_back() -> None:
 
 @pytest.mark.parametrize("turtles", [1, 5])
 def test_a_recording_is_bounded(turtles: int) -> None:
-    """The recording contains only the newest MOST rows."""
+    """The recording contains only the newest `MOST` rows."""
     recording = TurtleRecording()
     for number in range(3 * MOST):
         seen = at(1 + (number % 900) / 100)

@@ -1,4 +1,4 @@
-"""Tests that code in the sandbox cannot use forbidden files and system calls."""
+"""Code in the sandbox cannot use forbidden files and system calls."""
 
 from __future__ import annotations
 

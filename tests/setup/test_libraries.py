@@ -1,4 +1,4 @@
-"""Tests that the set-up passes pip's settings to uv."""
+"""The set-up passes pip's settings to uv."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests that pyproject.toml, the lock files and environment.yml contain the same libraries."""
+"""pyproject.toml, the lock files and environment.yml contain the same libraries."""
 
 from __future__ import annotations
 

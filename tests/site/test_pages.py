@@ -24,7 +24,7 @@ CONTRAST = "color-contrast"
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 PAGE = "00_panels.html"
-# Every test run checks the pages in ENOUGH. A test run checks the other pages only if they have changed.
+# Every test run checks the pages in `ENOUGH`. A test run checks the other pages only if they have changed.
 ENOUGH = ("index.html", "glossary.html", "05_write_a_server.html", PAGE)
 
 
@@ -76,7 +76,7 @@ def test_every_page_is_whole_without_a_network(
 
 
 def test_axe_finds_no_problem_on_some_pages(browser: Browser, course: Path, panels: Path) -> None:
-    """In a wide window with the light theme, axe-core finds no problem on the pages in ENOUGH."""
+    """In a wide window with the light theme, axe-core finds no problem on the pages in `ENOUGH`."""
     assert problems(browser, [course, panels], WIDTHS[0], "light", ENOUGH) == {}
 
 

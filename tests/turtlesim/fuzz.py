@@ -38,7 +38,7 @@ ODD_NAMES = (
     "t/",
     "con",
 )
-MOST = 12  # If there are more turtles than MOST, the fuzzer resets the simulator.
+MOST = 12  # If there are more turtles than `MOST`, the fuzzer resets the simulator.
 
 
 class Fuzzer:

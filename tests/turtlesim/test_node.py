@@ -1,4 +1,4 @@
-"""Tests that the course's node behaves like the turtlesim of ROS."""
+"""The course's node behaves like the turtlesim of ROS."""
 
 from __future__ import annotations
 

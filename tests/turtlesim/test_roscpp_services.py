@@ -1,4 +1,4 @@
-"""Tests that the simulator's services, names and publishers behave like those of a roscpp node."""
+"""The simulator's services, names and publishers behave like those of a roscpp node."""
 
 from __future__ import annotations
 

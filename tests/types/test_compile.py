@@ -1,4 +1,4 @@
-"""Tests that a type made from the text of a definition is equal to the type that catkin built."""
+"""A type made from the text of a definition is equal to the type that catkin built."""
 
 from __future__ import annotations
 

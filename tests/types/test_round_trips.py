@@ -1,4 +1,4 @@
-"""Tests that convert values to strings, messages, bytes and commands, and back."""
+"""Tests of the conversion of values to strings, messages, bytes and commands, and back."""
 
 from __future__ import annotations
 

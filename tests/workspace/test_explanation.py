@@ -1,4 +1,4 @@
-"""Tests that the course explains the messages of ROS tools.
+"""The course explains the messages of ROS tools.
 
 Each case is a package with one mistake, which the real catkin_make builds. All cases use one workspace,
 because this saves time.

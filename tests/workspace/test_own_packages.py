@@ -1,4 +1,4 @@
-"""Tests that a kernel finds the student's built packages."""
+"""A kernel finds the student's built packages."""
 
 from __future__ import annotations
 

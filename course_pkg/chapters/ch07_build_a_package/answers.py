@@ -466,7 +466,7 @@ replace("catkin_make\n", "")
 replace("source devel/setup.bash\n", "", times=2)
 # %% 07.7 wrong: omits the package in the rosrun command | hint: The command that starts the server
 replace("rosrun my_geometry server.py", "rosrun server.py")
-# %% 07.7 wrong: calls the service with only two sides | hint: The call of the service is not
+# %% 07.7 wrong: calls the service with only two sides | hint: A part of the command that calls
 replace("/getGeometry 1.2 5.2 8.9", "/getGeometry 1.2 5.2")
 # %% 07.7 wrong: omits the call | hint: The call of the service is missing.
 replace("rosservice call /getGeometry 1.2 5.2 8.9\nrosrun my_geometry client.py 1.2 5.2 8.9\n", "")

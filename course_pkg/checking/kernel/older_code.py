@@ -84,7 +84,7 @@ def _correct() -> str:
 
 
 def _handler_of(service: str) -> Value:
-    """Return the function that handles calls to the object `service` in this process, or None."""
+    """Return this process's handler of the service `service`, or None if this process has no such handler."""
     if "rospy" not in sys.modules:
         return None
     from rospy.impl.registration import get_service_manager

@@ -45,7 +45,7 @@ class Node:
         return [name for name in names if not name.endswith(("/get_loggers", "/set_logger_level"))]
 
     def registration(self, service: str) -> Registration | None:
-        """Return the registration of the service `service`, or None."""
+        """Return the registration of the service `service`, or None if no server is registered."""
         providers = self.master.system_state().services.get(service, ())
         uri = self.master.lookup_service(service)
         node_uri = self.master.lookup_node(providers[0]) if providers else None

@@ -24,7 +24,9 @@ class Deadlines:
     extensions: Extensions = field(default_factory=Extensions)
 
     def due(self, student: str, chapter: str) -> datetime | None:
-        """Return a student's deadline for a chapter, or None; the grace period is not included.
+        """Return a student's deadline for a chapter, or None if the chapter has no deadline.
+
+        The returned time does not include the grace period.
 
         An extension does not change the time of day of a deadline, even if summer time begins or ends.
         """

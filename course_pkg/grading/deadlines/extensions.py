@@ -10,7 +10,7 @@ from course_pkg.errors import GradingError
 from course_pkg.grading.roster.people import Person
 
 COLUMN = "extension_days"
-FOLDED = "extension days"  # The roster stores the column `extension_days` under this name.
+FOLDED = "extension days"  # read_roster() replaces each underscore in a column's name by a space.
 
 
 @dataclass(frozen=True)

@@ -137,7 +137,7 @@ class Exercise:
         )
 
     def _rare(self, features: frozenset[str]) -> int:
-        """Return the number of features in `features` that at most FEW students have."""
+        """Return the number of features in `features` that at most `FEW` students have."""
         return sum(self.counts(feature) and self.having(feature) <= FEW for feature in features)
 
     @cached_property

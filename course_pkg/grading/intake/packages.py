@@ -52,10 +52,10 @@ class Found:
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the name of the package if `names` contains this name, or else the name of the folder.
+        """Return the name of the package, the name of its folder, or "".
 
-        `names` contains the names of the packages that parts need. If it contains neither the name of the
-        package nor the name of the folder, return "".
+        `names` contains the names of the packages that parts need. The package's name has priority over
+        the folder's name. If `names` contains none of the two names, return "".
         """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
@@ -73,7 +73,7 @@ def is_generated(folders: Sequence[str]) -> bool:
 
 
 def root_of(path: tuple[str, ...], packages: set[tuple[str, ...]]) -> tuple[str, ...] | None:
-    """Return the folder of the package that contains a file, or None; a notebook belongs to no package."""
+    """Return the folder of the package that contains a file, or None if no package contains it."""
     if NOTEBOOK.fullmatch(path[-1]):
         return None
     return next((path[:depth] for depth in range(1, len(path)) if path[:depth] in packages), None)

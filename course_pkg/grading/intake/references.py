@@ -11,7 +11,7 @@ from course_pkg.authoring.cells import exercise_of
 from course_pkg.authoring.notebook_store import NotebookStore, read
 from course_pkg.grading.intake.reading import StudentCell
 
-# If a notebook has no exercise ids, its chapter is found by the ids of all cells. At least ENOUGH cell ids
+# If a notebook has no exercise ids, its chapter is found by the ids of all cells. At least `ENOUGH` cell ids
 # must also be in the chapter's solution.
 ENOUGH = 5
 

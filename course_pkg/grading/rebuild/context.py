@@ -14,7 +14,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-# A cell with more than LONGEST characters is not parsed, because the parsing would take too much time.
+# A cell with more than `LONGEST` characters is not parsed, because the parsing would take too much time.
 LONGEST = 20_000
 # A cell with magics and more than MAGICAL lines is not parsed, because IPython's time grows with the square
 # of the number of lines.

@@ -19,7 +19,7 @@ Flagged = tuple[str, str, Flag]  # The tuple contains the student, the chapter a
 
 
 def flag_sections(book: Book) -> Iterator[str]:
-    """Yield the section about flags, with a list of students for each kind of flags.
+    """Yield the section about flags, with a list of students for each kind of flag.
 
     Without flags, yield nothing.
     """

@@ -24,7 +24,7 @@ from course_pkg.grading.review.overrides import (
 )
 from course_pkg.types.fields import Plain
 
-QUIET = 0.3  # If another program changed the file less than this many s ago, the file can be incomplete.
+QUIET = 0.3  # After another program has changed the file, the file can be incomplete for this time in s.
 Rows = Mapping[Key, Override | None]
 
 

@@ -15,7 +15,7 @@ from course_pkg.errors import GradingError
 if TYPE_CHECKING:
     from distributed import Client
 
-PATIENCE = 20.0  # A scheduler must respond, and a worker must connect, within this many s.
+PATIENCE = 20.0  # A scheduler must respond, and a worker must connect, within this time in s.
 # INTERVAL is the time in s after which the run tests again whether the cluster still has workers.
 INTERVAL = 1.0
 AGAIN = "The finished grades are saved. Correct the problem above, and type the same command again."

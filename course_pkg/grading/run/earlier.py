@@ -25,7 +25,7 @@ class Earlier:
     unreadable: int = 0
 
     def find(self, student: str, chapter: str) -> Grade | None:
-        """Return a student's earlier grade for a chapter, or None.
+        """Return a student's earlier grade for a chapter, or None if there is no earlier grade.
 
         The grade contains the points of the checks, not an instructor's points.
         """

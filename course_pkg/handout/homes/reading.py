@@ -23,8 +23,8 @@ from course_pkg.handout.homes.listing import Home, groups_of
 from course_pkg.handout.homes.work import Problem, WorkFile, work_in
 from course_pkg.waiting import Deadline
 
-# Reading one home may take this many s. Without this limit, a network folder that does not respond would stop
-# the whole collection.
+# Reading one home may take up to this time in s. Without this limit, a network folder that does not respond
+# would stop the whole collection.
 TIMEOUT = 60.0
 ALTOGETHER = 200 << 20  # ALTOGETHER is the maximum number of bytes of one student's work.
 HEADER = 64 << 10  # Each header of the child's data has at most this many bytes.

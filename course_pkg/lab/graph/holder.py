@@ -12,7 +12,7 @@ connections to its socket.
 To each command, the holder sends a line of JSON together with the file descriptors of the namespaces. The
 holder sends a second line when the master answers, or when the master cannot be started. When a command
 leaves and other commands still use the graph, the holder closes the command's connection at once. When the
-last command leaves, the holder ends the graph, sends LAST, and then closes the connection.
+last command leaves, the holder ends the graph, sends `LAST`, and then closes the connection.
 """
 
 from __future__ import annotations

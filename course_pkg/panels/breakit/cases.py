@@ -70,7 +70,7 @@ def cases(*chosen: str) -> tuple[Case, ...]:
 
 
 def fault_with(diagnosis: str) -> Fault | None:
-    """Return the fault with this diagnosis, or None."""
+    """Return the fault with this diagnosis, or None if no fault has this diagnosis."""
     return next((fault for fault in every_fault() if fault.diagnosis == diagnosis), None)
 
 

@@ -19,7 +19,7 @@ from course_pkg.panels.breakit.state import CaseState, Listed, Overview, Score, 
 from course_pkg.panels.breakit.worker import Worker
 from course_pkg.ros.explain.explanation import taught
 
-STEP = 30.0  # play() waits at most this many s for the fault, and for the output of each tool.
+STEP = 30.0  # play() waits up to this time in s for the fault, and for the output of each tool.
 LOG = 8  # The panel stores the symptom and at most this many outputs of tools.
 
 

@@ -12,10 +12,10 @@ from course_pkg.panels.graph.picture import Kind, Picture, Shape, namespaces
 if TYPE_CHECKING:
     from course_pkg.ros.trace.activity import Activity, Traffic
 
-# The rate is measured over at most LONG seconds. A change of the rate is noticed after SHORT seconds.
+# The rate is measured over at most `LONG` seconds. A change of the rate is noticed after `SHORT` seconds.
 LONG, SHORT = 30.0, 3.9
 LEAST = 1.5  # A rate that was measured over a shorter time than this (s) is not reliable.
-LATE = 0.05  # A busy node may report its counts with a delay of up to this many s.
+LATE = 0.05  # A busy node may report its counts with a delay of up to this time in s.
 SHOWN = 12  # The page lists at most this many connections of a topic, or callers of a service.
 UNCONNECTED = "not connected: check that both nodes use the same type"
 

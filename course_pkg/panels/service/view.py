@@ -63,7 +63,7 @@ class ServicePanel(Panel):
 
     @property
     def response(self) -> genpy.Message | None:
-        """The response message of the latest call, or None."""
+        """The response message of the latest call, or None if this call has no response."""
         return self._model.response
 
     def fill(self, **values: Plain) -> None:

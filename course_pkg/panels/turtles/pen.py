@@ -15,12 +15,12 @@ Colour = tuple[int, int, int]  # The numbers are red, green and blue, from 0 to 
 
 USUAL: Colour = (179, 184, 255)  # Every pen has this colour at the start.
 HOME = 5.544444561  # The first turtle starts at this x and y (m).
-# Up to the speed SLOW (m/s), the turtle is always above the line that it draws. At this speed, the turtle
+# Up to the speed `SLOW` (m/s), the turtle is always above the line that it draws. At this speed, the turtle
 # moves 0.8 px per tick, and the pen is 3 px wide.
 SLOW = 1.1
 BRISK = 3.0  # Up to this speed (m/s), the turtle is often above the line that it draws.
 STILL = 1e-4  # A turtle is at rest if it moves less than this (m) between two observations.
-# The colour is used only after SETTLED successive observations at rest, or after SETTLED successive
+# The colour is used only after `SETTLED` successive observations at rest, or after `SETTLED` successive
 # observations in motion.
 SETTLED = 2
 

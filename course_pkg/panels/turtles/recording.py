@@ -52,9 +52,9 @@ class _Track:
 
 @dataclass
 class TurtleRecording:
-    """The rows of a recording, sorted by time; there are at most MOST rows.
+    """The rows of a recording, sorted by time; there are at most `MOST` rows.
 
-    If there are more than MOST rows, every second position of each turtle is removed.
+    If there are more than `MOST` rows, every second position of each turtle is removed.
 
     `edition` increases by 1 when rows are removed.
     """

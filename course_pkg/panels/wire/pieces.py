@@ -76,7 +76,8 @@ class Reader:
         self.depth = 0
         self.pieces: list[Piece] = []
         self._silent = 0
-        # All bytes from the offset `_folded` on become one piece, because the reader already has MOST pieces.
+        # All bytes from the offset `_folded` on become one piece, because the reader already has `MOST`
+        # pieces.
         self._folded: int | None = None
 
     @property

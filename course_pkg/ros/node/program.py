@@ -18,7 +18,7 @@ from course_pkg.ros.process.master import wait_for_master
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 
 END_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-TIMEOUT = 5.0  # Wait up to this time in s for a server, and again up to this time for the response.
+TIMEOUT = 5.0  # A program waits up to 5 s until a server is registered, and then up to 5 s for the response.
 INTERVAL = 0.02  # wait_until() checks its condition again after this time in s.
 
 Offered = tuple[type, Callable[[Message], Message]]  # The class of a service, and its handler.

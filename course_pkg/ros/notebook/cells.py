@@ -74,7 +74,7 @@ class Cells:
                 self._close_all(list(previous.created.values()))
 
     def end(self, error: BaseException | None = None) -> None:
-        """End the current run; `error` is the exception that ended the run, or None."""
+        """End the current run; `error` is the exception that ended it, or None if the cell succeeded."""
         if self._depth:
             self._depth -= 1
         elif self._current is not None:
@@ -83,7 +83,7 @@ class Cells:
 
     @property
     def run(self) -> CellRun | None:
-        """The run that records the new objects of the current thread, or None."""
+        """The run that records the new objects of this thread, or None if no run records them."""
         run = self._current
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 

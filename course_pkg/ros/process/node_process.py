@@ -143,7 +143,7 @@ class NodeProcess:
         return f"<{self.label}, {'running' if self.running else 'ended'}>"
 
     def _serves(self, master: MasterClient, name: str) -> bool:
-        """Return whether this process is the registered server of the service, and whether it answers."""
+        """Return True if this process is the registered server of the service and answers a probe."""
         uri = master.lookup_service(name)
         if uri is None or port_of(uri) not in self._process.listening_ports():
             return False

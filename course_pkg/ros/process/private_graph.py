@@ -18,7 +18,7 @@ INTERVAL = 0.02  # This is the time in s between two polls of the master.
 
 
 class PrivateGraph:
-    """A private master and the programs of this graph.
+    """A ROS graph that consists of a private master and the programs that use this master.
 
     The master and the programs end when close() is called, at the end of a `with` block, or when this object
     is deleted.

@@ -69,11 +69,11 @@ class Snapshot:
     services: tuple[ServiceSeen, ...]
 
     def service(self, name: str) -> ServiceSeen | None:
-        """Return the service with this name, or None."""
+        """Return the service with this name, or None if the snapshot does not contain this service."""
         return next((service for service in self.services if service.name == name), None)
 
     def node(self, name: str) -> NodeSeen | None:
-        """Return the node with this name, or None."""
+        """Return the node with this name, or None if the snapshot does not contain this node."""
         return next((node for node in self.nodes if node.name == name), None)
 
     def as_dict(self) -> dict[str, Plain]:

@@ -71,7 +71,7 @@ def _walk(value: Message, steps: Sequence[int | str]) -> Message:
 
 
 def _first_numbers(message: MessageType, without: str = "") -> Iterator[tuple[str, Kind]]:
-    """Yield the paths and kinds of the first MOST numeric fields, but skip the message type `without`."""
+    """Yield the paths and kinds of the first `MOST` numeric fields, but skip the message type `without`."""
     every = (found for field in message.fields for found in _paths(field, field.name, without))
     return islice(every, MOST)
 

@@ -72,7 +72,7 @@ class Exchange:
 
     @property
     def finished(self) -> float | None:
-        """Return the time when the caller received the response or an error, or None."""
+        """Return the time when the caller received a response or an error, or None if both are missing."""
         ends = (self.started(kind) for kind in (RESPONSE, ERROR))
         return next((end for end in ends if end is not None), None)
 

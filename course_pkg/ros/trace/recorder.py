@@ -164,7 +164,7 @@ class CallSpan:
 
 
 class _Current(threading.local):
-    """The call that a thread is making, or None."""
+    """The call that a thread is making, or None if the thread is making no call."""
 
     call: CallSpan | None = None
 

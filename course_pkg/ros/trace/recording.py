@@ -19,7 +19,7 @@ PUBLISH = "publish"
 CALLBACK = "callback"
 MASTER = "master"  # The peer of a lookup is the master.
 GET_RECORD = "getCourseRecord"  # This method of a node's slave API returns a ProcessRecord.
-NOBODY = "no subscriber was connected"  # The note of a message that had no subscriber.
+NOBODY = "no subscriber was connected"  # If a message had no subscriber, its event has this note.
 
 OF_CALLS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER)
 BLOCKED = (LOOKUP, CONNECT, WAIT)  # During these phases of a call, a node waits for another node.

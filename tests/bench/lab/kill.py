@@ -16,7 +16,7 @@ from course_pkg.ports import free_port
 from tests.lab.commands import ROOT, alive, below, can_connect, having, lab
 from tests.support import eventually
 
-TIMEOUT = 20.0  # A process that still runs after this many seconds counts as left behind.
+TIMEOUT = 20.0  # A process that still runs after this time in s counts as left behind.
 
 
 def kill(times: int = 25) -> bool:

@@ -17,7 +17,7 @@ from tests.support import eventually
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 
-# One block of commands may take at most this many seconds.
+# One block of commands may take up to this time in s.
 BUILDING = 240.0
 LAST = "## 13."  # From this section on, the student works without a lab sheet.
 SERVER = "rosrun my_geometry server.py"

@@ -92,7 +92,7 @@ def test_right_and_wrong_answers_are_read_in_order(tmp_path: Path) -> None:
     ],
 )
 def test_source_is_a_program_a_string_or_a_change(tmp_path: Path, title: str, source: str) -> None:
-    """An answer is a program, a string, or a change of another answer."""
+    """The file contains an answer as a program, as a string, or as changes in the text of another answer."""
     assert [each.source for each in _read(tmp_path, FILE) if each.title == title] == [source]
 
 

@@ -1,4 +1,4 @@
-"""Tests that the headers of the example answers contain a part of each hint."""
+"""The headers of the example answers contain a part of each hint."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ import pytest
 from course_pkg.checking.kernel.time_limit import TimeLimit, TimesUp
 
 LIMIT = 0.2
-SOON = 3.0  # On a busy machine, a function ends at most this many seconds after its time limit.
+SOON = 3.0  # On a busy machine, a function ends within this time in s after its time limit.
 LOCK = threading.Lock()
 
 

@@ -20,7 +20,7 @@ from tests.support import eventually
 
 # rospy's client does not close its sockets; the garbage collector closes them.
 pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-AWAY = 0.2  # A crashed server is started again after this many seconds.
+AWAY = 0.2  # A crashed server is started again after this time in s.
 
 
 @pytest.fixture

@@ -154,7 +154,7 @@ def test_late_subscription_gets_only_the_latched_message(check: Kernel, student:
 
 
 def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) -> None:
-    """A subscription stores only the first KEPT messages, but counts all messages."""
+    """A subscription stores only the first `KEPT` messages, but counts all messages."""
     check.run("import course_pkg.checking.peers.subscription as module; module.KEPT = 5")
     check.run("subscription = subscribe('/flood')")
     student.run("p = rospy.Publisher('/flood', UInt32, queue_size=0); connected(p)")

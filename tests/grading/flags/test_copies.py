@@ -1,4 +1,4 @@
-"""Tests that copies get a flag even if names, comments and the order of statements were changed."""
+"""Copies get a flag even if names, comments and the order of statements were changed."""
 
 from __future__ import annotations
 

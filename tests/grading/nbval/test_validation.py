@@ -1,4 +1,4 @@
-"""Tests that run a student's notebook with nbval in a sandbox."""
+"""Tests of the run of a student's notebook with nbval in a sandbox."""
 
 from __future__ import annotations
 

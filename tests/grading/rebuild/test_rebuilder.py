@@ -1,4 +1,4 @@
-"""Tests that rebuild a notebook from the reference solution and a student's answers."""
+"""Tests of the notebook that the course rebuilds from the reference solution and a student's answers."""
 
 from __future__ import annotations
 

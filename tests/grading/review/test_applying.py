@@ -1,4 +1,4 @@
-"""Tests that apply reviewed points and comments to the reports."""
+"""Tests of reports to which an instructor's points and comments are applied."""
 
 from __future__ import annotations
 

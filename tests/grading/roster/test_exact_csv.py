@@ -1,4 +1,4 @@
-"""Tests that change one cell of a CSV file without changing any other byte."""
+"""Tests of the editor for CSV files: a change of one cell changes no other byte of the file."""
 
 from __future__ import annotations
 

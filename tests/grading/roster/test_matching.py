@@ -1,4 +1,4 @@
-"""Tests that find a submission's student in the roster."""
+"""Tests of the search for a submission's student in the roster."""
 
 from __future__ import annotations
 

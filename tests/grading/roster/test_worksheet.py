@@ -1,4 +1,4 @@
-"""Tests that write grades into a copy of Moodle's worksheet."""
+"""Tests of the grades that the course writes into a copy of Moodle's worksheet."""
 
 from __future__ import annotations
 

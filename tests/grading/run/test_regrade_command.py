@@ -1,4 +1,4 @@
-"""Tests that run `course grade` again with other options or submissions."""
+"""Tests of repeated runs of `course grade` with other options or submissions."""
 
 from __future__ import annotations
 

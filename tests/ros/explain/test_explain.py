@@ -1,4 +1,4 @@
-"""Tests that the course explains each known error."""
+"""The course explains each known error."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ CALL = """
 from std_srvs.srv import Trigger
 node.call({name!r}, Trigger, timeout=0.5)
 """
-LONGEST = 2.0  # On a busy machine, a call with a timeout of 0.5 s is allowed to take this many seconds.
+LONGEST = 2.0  # On a busy machine, a call with a timeout of 0.5 s is allowed to take this time in s.
 
 RAW_SERVER = """
 import rospy, sys, threading

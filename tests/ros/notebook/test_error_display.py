@@ -1,4 +1,4 @@
-"""Tests that a notebook shows an error in at most 12 lines."""
+"""A notebook shows an error in at most 12 lines."""
 
 from __future__ import annotations
 

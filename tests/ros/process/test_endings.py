@@ -1,4 +1,4 @@
-"""Tests that every started process ends when the process that started it ends."""
+"""Every started process ends when the process that started it ends."""
 
 from __future__ import annotations
 

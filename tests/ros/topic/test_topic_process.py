@@ -170,7 +170,7 @@ def test_a_channel_transfers_whole_messages() -> None:
 
 
 def test_the_numbers_of_a_message_have_paths() -> None:
-    """numbers() returns the paths of at most MOST number fields, even in nested messages and arrays."""
+    """numbers() returns the paths of at most `MOST` number fields, even in nested messages and arrays."""
     assert numbers(message_type("std_msgs/Float64")) == ["data"]
     assert numbers(message_type("std_msgs/String")) == []
     assert numbers(message_type("geometry_msgs/Twist"))[:2] == ["linear.x", "linear.y"]

@@ -71,7 +71,7 @@ def pair(master: PrivateMaster) -> Iterator[tuple[Kernel, Kernel]]:
 
 
 def counted(wanted: Callable[[Traffic], bool]) -> int | None:
-    """Return the number of messages of a connection, or None for an unknown connection."""
+    """Return the number of messages on the connection that `wanted` selects, or None if it selects none."""
     found = [each.messages for each in ActivityPoller().poll(look()).traffic if wanted(each)]
     assert len(found) <= 1
     return found[0] if found else None

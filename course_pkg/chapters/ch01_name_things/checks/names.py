@@ -17,7 +17,7 @@ from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient
 GEOMETRY = "course_pkg/geometry"
 TOPICS = ("joint_states", "mirrored_joints")  # The viewer uses these topics.
 TIMEOUT = 5.0  # A running node has to list its topics within this time in s.
-START = 20.0  # A program may take this many s to start; usually, it takes 0.5 s.
+START = 20.0  # A program may take up to this time in s to start; usually, it takes 0.5 s.
 WHERE = "the service is called measure, and it is in the namespace of the room"
 OWN_SERVICE = "Start a server that offers the service `measure` in the namespace of the room."
 OWN_NODE = "Give the server's node the name `measurer`, and start this node in the namespace of the room."

@@ -21,10 +21,10 @@ WAITS_FOR_EVER = (
 # then publishes numbers for about 1.1 s. When the publisher exists, the check waits COMES s, and then
 # subscribes.
 COMES, EARLIEST = 2.3, 2.7
-NO_WAIT = 0.7  # A function that waits less than this many s does not wait for a subscriber.
+NO_WAIT = 0.7  # A function that waits less than this time in s does not wait for a subscriber.
 NO_NUMBERS = "If there is no subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy machine.
-# In addition to the time for publishing the numbers, the student's function may take at most this many s. A
+# In addition to the time for publishing the numbers, the student's function may take up to this time in s. A
 # function that always sleeps for 2 s takes longer.
 TOO_LONG = 1.9
 AT_ONCE = 0.3  # AT_ONCE is the maximum median duration of several calls in s.

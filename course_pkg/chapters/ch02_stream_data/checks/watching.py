@@ -1,4 +1,4 @@
-"""Checks of the student's class Watch, which distinguishes a running stream from a stream that has ended."""
+"""Checks of the student's class Watch, which finds out whether a stream is running or has ended."""
 
 import time
 

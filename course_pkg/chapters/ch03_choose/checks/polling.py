@@ -14,7 +14,7 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 DETECT = "course_pkg/DetectCustomer"
-SLACK = 0.7  # On a busy machine, a call of poll() may take this many s longer.
+SLACK = 0.7  # SLACK is the additional time in s that a call of poll() may take on a busy machine.
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
 NO_PAUSE = "Pause for 1 / rate seconds between two calls."
 NO_END = (

@@ -25,9 +25,9 @@ from course_pkg.srv import CashierReport, CashierReportResponse, DetectCustomer
 
 DESIGNS = ("poll", "topic", "wait")
 KEPT = 10_000  # The report contains data about at most this many greetings.
-GRACE = 2.0  # A call may take this many s longer than `~patience`.
-AGAIN = 0.5  # After a failed call, the cashier waits this many s before the next call.
-CONNECTED = 5.0  # The cashier waits at most this many s for a publisher, and then serves the report.
+GRACE = 2.0  # GRACE is the additional time in s that a call may take after `~patience` s.
+AGAIN = 0.5  # AGAIN is the time in s between a failed call and the next call.
+CONNECTED = 5.0  # The cashier waits up to this time in s for a publisher, and then serves the report.
 
 
 class Cashier:

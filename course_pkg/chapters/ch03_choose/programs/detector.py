@@ -19,8 +19,8 @@ from course_pkg.ros.node.program import start_node, undisturbed, wait_until
 from course_pkg.shop.watch import Customer, Watch
 from course_pkg.srv import DetectCustomer, DetectCustomerRequest, DetectCustomerResponse
 
-LONGEST = 60.0  # A caller can wait at most this many s.
-SILENCE = 2.0  # After this many s without a message, the camera counts as stopped.
+LONGEST = 60.0  # A caller can wait up to this time in s.
+SILENCE = 2.0  # After this time in s without a message, the camera counts as stopped.
 CALLERS = 64  # At most this many callers can wait at the same time, because each caller needs a thread.
 
 

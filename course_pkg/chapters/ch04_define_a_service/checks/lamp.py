@@ -20,8 +20,8 @@ TYPE = "lamp_services/Lamp"
 # For each build step, -t limits the CPU time in s, and -f limits the size of a file in KiB. A step needs
 # about 1 s of CPU time.
 LIMITS = "ulimit -t 6 -f 100000"
-# The whole build may take this many s; a build takes 1.5 s on an idle machine and 20 s on a very busy
-# machine.
+# The whole build may take up to this time in s; a build takes 1.5 s on an idle machine and 20 s on a very
+# busy machine.
 BUILD = 40.0
 
 # catkin prints this problem if catkin_package names a package that package.xml does not name.

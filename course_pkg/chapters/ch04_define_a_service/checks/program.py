@@ -16,7 +16,7 @@ from course_pkg.workspace import explain
 
 NAME = "lamp_server.py"
 FILE = f"{PACKAGE}/scripts/{NAME}"
-# The program must offer /lamp within this many s; it takes 1 s on an idle machine.
+# The program must offer /lamp within this time in s; it takes 1 s on an idle machine.
 STARTING = 20.0
 LOOK = 0.1  # LOOK is the time in s between two snapshots of the graph.
 

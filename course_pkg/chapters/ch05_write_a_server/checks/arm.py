@@ -16,7 +16,7 @@ from course_pkg.waiting import at_this_load, wait_until
 
 FILE = "arm.py"
 MOVE, MAINTENANCE = "/move_arm", "/maintenance"
-STARTS = 8.0  # The program must offer both services within this many s; it takes 0.5 s on an idle machine.
+STARTS = 8.0  # The program must offer both services within this time in s; it takes 0.5 s on an idle machine.
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 # A process that imports the file ends with this exit status, unless the file ends the process earlier.
 IMPORTED = 77

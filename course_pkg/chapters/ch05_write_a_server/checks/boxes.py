@@ -14,7 +14,7 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook, req
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 # The relative error of a float32 is less than 1e-7. If a number was rounded to two decimals, its relative
-# error is usually larger than NEAR.
+# error is usually larger than `NEAR`.
 NEAR = 1e-5
 # A message may contain at most this many numbers. If a message contains many numbers, one of them may equal
 # the right value by chance.

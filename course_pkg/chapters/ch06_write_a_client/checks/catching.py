@@ -156,7 +156,7 @@ def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDD
 
 
 def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -> None:
-    """Assert that the student's function returns None for the service `name`, whose call fails.
+    """Assert that the student's function returns None if the call of the service `name` fails.
 
     The student's function may wait up to 10 s for the service.
     """
@@ -197,7 +197,8 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
     """Return the failures of a call that the student's function must handle.
 
-    Each tuple contains the name of the failure, the name of the service, and the server or None.
+    Each tuple contains the name of the failure, the name of the service, and the server. If no server runs,
+    the third item is None.
     """
     refusing, dying, killed, nowhere = (f"/{context.random.word()}" for _ in range(4))
     refuses = context.serve(refusing, GEOMETRY, lambda _: Refuse("not today"))

@@ -17,11 +17,13 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import at_this_load, wait_until
 
 FILE = "fits.py"
-# All runs start at the same time and may take this many s; a program waits at most 2 s for the service.
+# All runs start at the same time and may take up to this time in s; a program waits at most 2 s for the
+# service.
 RUNS = 9.0
-# A program may wait at most this many s for a missing service: 2 s, plus the time that it needs to end.
+# A program may wait up to this time in s for a missing service: 2 s, plus the time that it needs to end.
 WAITS = 4.0
-LATE = 0.5  # The service starts this many s after the first snapshot that contains the node.
+# LATE is the time in s between the first snapshot that contains the node and the start of the service.
+LATE = 0.5
 POLL = 0.2  # The check tests every POLL s whether the runs have ended.
 # A process that imports the file ends with this exit status, unless the file ends the process earlier.
 IMPORTED = 77
@@ -218,14 +220,14 @@ class Started:
         self._node = f"{namespace}/{namespace.replace('/', '')}"
         # For a late or a missing service, this is the time when the program's node was first on the graph.
         self._seen: float | None = None
-        self.waited = 0.0  # The program has waited for a missing service for at least this many s.
+        self.waited = 0.0  # The program has waited for a missing service for at least this time in s.
         self.server = self._serve() if case.script and not case.late else None
         named = f"getGeometry:={self._service}" if case.remapped else f"__ns:={namespace}"
         argv = (FILE, *case.arguments, named, f"__name:={namespace.replace('/', '')}")
         self.run = folder.start("python", *argv, worded=" ".join(["python3", *argv]))
 
     def watch(self) -> bool:
-        """If the program's node has been on the graph for LATE s, serve the late service.
+        """If the program's node has been on the graph for `LATE` s, serve the late service.
 
         If there is no service, store how long the program waits, and return whether the program has ended.
         """

@@ -12,10 +12,11 @@ from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Result
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "next", "nowhere")
-# A service that does not respond may delay the result by at most this many s; a correct function waits 1 s
+# A service that does not respond may delay the result by at most this time in s; a correct function waits 1 s
 # for it.
 LONGEST = 1.75
-# If a service does not respond, the next service must not be called before this many s have passed.
+# If a service does not respond, the client must wait at least this time in s before it calls the next
+# service.
 SHORTEST = 0.9
 FIRST = "If the first service responds, return the volume in its response."
 NEXT = (

@@ -9,7 +9,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.waiting import at_this_load
 
-# A call for a missing service may return this many s before its time limit.
+# EARLY is the longest accepted time in s between the return of a call and its time limit, if the service is
+# missing.
 EARLY = 0.3
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 

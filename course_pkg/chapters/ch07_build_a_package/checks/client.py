@@ -23,8 +23,8 @@ SERVICE = "/getGeometry"
 USAGE = re.compile("^usage:", re.MULTILINE)
 # The pattern matches rospy's error messages for a missing service.
 WAITED = re.compile("waiting for service|unavailable")
-# A run of the client may take this many s: rospy needs 0.5 s to start (5 s on a busy machine), and the client
-# waits up to 5 s.
+# A run of the client may take up to this time in s: rospy needs 0.5 s to start (5 s on a busy machine), and
+# the client waits up to 5 s.
 WITHIN = 16.0
 # Without a server, the client has to end within WAITING s plus SLOWER times the duration of its fastest run
 # with wrong arguments. This duration shows how long a start takes on this machine now.
@@ -242,7 +242,10 @@ def _run(package: BuiltPackage, arguments: list[str]) -> Finished:
 
 
 def _printed(done: Finished, name: str) -> float | None:
-    """Return the number in an output line such as "area: 6.24", or None; `name` is the line's first word."""
+    """Return the number in an output line such as "area: 6.24", or None without this line.
+
+    `name` is the first word of the line.
+    """
     found = re.search(rf"(?m)^\s*{name}:\s*(-?\d+\.\d\d)\s*$", done.out)
     return float(found[1]) if found else None
 

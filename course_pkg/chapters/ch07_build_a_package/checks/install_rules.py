@@ -14,7 +14,7 @@ from course_pkg.workspace.cmake_messages import cmake_commands
 
 SCRIPTS = ("server.py", "client.py")
 PLACE = "lib/my_geometry"
-INSTALLING = 20.0  # The installation may take this many s; it takes 1 s on an idle machine.
+INSTALLING = 20.0  # The installation may take up to this time in s; it takes 1 s on an idle machine.
 INSTALLED = "Install server.py and client.py in the folder that rosrun searches."
 
 

@@ -27,7 +27,7 @@ SERVER = Program("scripts/on_off_server.py", "ON_OFF_SERVER", "/onOff")
 CLIENT = Program("scripts/on_off_client.py")
 SERVER_FILE = SERVICE_EXAMPLE_PACKAGE.path(SERVER.file)
 CLIENT_FILE = SERVICE_EXAMPLE_PACKAGE.path(CLIENT.file)
-WITHIN = 12.0  # A run of the client may take this many s.
+WITHIN = 12.0  # A run of the client may take up to this time in s.
 # The client makes at least this many calls. With fewer calls, even a right client could by chance repeat a
 # pattern.
 CALLS = 24

@@ -18,10 +18,10 @@ from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.errors import CheckError
 from course_pkg.workspace import explain
 
-# A program must offer its service within this many s; it takes 1 s on an idle machine, and 3 s on a busy
+# A program must offer its service within this time in s; it takes 1 s on an idle machine, and 3 s on a busy
 # machine.
 STARTING = 15.0
-IMPORTING = 15.0  # An import may take this many s; it needs 0.4 s of CPU time.
+IMPORTING = 15.0  # An import may take up to this time in s; it needs 0.4 s of CPU time.
 MUCH = 6.0  # If an import needs more CPU time than this (in s), the script is in an endless loop.
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 LOGGERS = ("/get_loggers", "/set_logger_level")  # Every rospy node has these services.

@@ -26,17 +26,17 @@ PROGRAM = script("spawn_turtle_plus")
 ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # The speed is in m/s.
-LATER = 2.0  # The service /toggle_forward starts after this many s.
+LATER = 2.0  # The service /toggle_forward starts after this time in s.
 TOO_LATE = (
     "The service /toggle_forward starts only after your program has called /spawn. Wait for each "
     "service immediately before its call."
 )
 WHERE = "Publish only on the topic /NAME/cmd_vel. NAME is the name of the turtle in the response of /spawn."
 ENDED = "The node ended after the calls, so it receives no messages. Call rospy.spin() at the end."
-ENDING = 0.6  # A program without spin() ends within this many s.
+ENDING = 0.6  # A program without spin() ends within this time in s.
 COUNT = 20  # COUNT is the number of velocities of which the program must publish each one.
 RAPID = 0.005  # After these, the check publishes many velocities; the time between two of them is RAPID s.
-LAST = 10.0  # On a busy machine, the program may publish the last velocity this many s later.
+LAST = 10.0  # On a busy machine, the program may need this additional time in s for the last velocity.
 STOPS = (
     "if a service is missing for 5 s or refuses a call, the program makes no further call and ends "
     "with exit status 1"

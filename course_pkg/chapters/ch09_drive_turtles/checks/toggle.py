@@ -125,7 +125,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _counts_each_call(toggle: Service, stream: Stream, many: int) -> None:
-    """Make several calls between two messages; then make more calls, whose number is `many`."""
+    """Make several calls between two messages; then make `many` more calls."""
     for _ in range(2):
         toggle()
     stream.becomes(STRAIGHT, NEXT_CALL, BACK)

@@ -17,9 +17,9 @@ from course_pkg.checking.shared.roscpp_program import require_no_other_program
 from course_pkg.waiting import wait_until
 from course_pkg.workspace import explain
 
-# A node must be on the graph within this many s; it takes 1 s on an idle machine.
+# A node must be on the graph within this time in s; it takes 1 s on an idle machine.
 STARTING = 30.0
-SETTLING = 4.0  # After the node is on the graph, it must serve its services within this many s.
+SETTLING = 4.0  # After the node is on the graph, it must serve its services within this time in s.
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 SIMULATOR = "simulator"
 SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")

@@ -10,10 +10,10 @@ from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
 from course_pkg.checking.peers.service_calls import Reply, Service
 from course_pkg.checking.plain_values import Message
 
-LIMIT = 1.6  # In the basket of the check, a handler waits at most this many s.
-SLACK = 0.8  # On a busy machine, a call may take this many s longer.
-LATER = 0.3  # An item is put into the basket after this many s.
-LAST = 1.2  # The last of several items is put into the basket after this many s.
+LIMIT = 1.6  # In the basket of the check, a handler waits up to this time in s.
+SLACK = 0.8  # SLACK is the additional time in s that a call may take on a busy machine.
+LATER = 0.3  # An item is put into the basket after this time in s.
+LAST = 1.2  # The last of several items is put into the basket after this time in s.
 KERNEL_CODE = (
     SMALL_STACKS
     + """

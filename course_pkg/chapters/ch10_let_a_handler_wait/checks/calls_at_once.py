@@ -16,15 +16,16 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
 TRIGGER = "std_srvs/Trigger"
-TOGETHER = 1.0  # The server waits at most this many s until the other calls have arrived.
+TOGETHER = 1.0  # The server waits up to this time in s until the other calls have arrived.
 LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
-# The student's function must return within this many s after the last response. If a function sleeps for a
+# The student's function must return within this time in s after the last response. If a function sleeps for a
 # fixed time instead of joining its threads, it can take longer.
 PROMPT = 0.3
 # In one run, two calls take a random time between these limits (s). The time is longer than two joins with a
 # timeout of 1 s.
 SHORTEST, LONGEST = 2.2, 2.8
-# If the student's function returns too late, the check adds a run with calls that take this many s longer.
+# If the student's function returns too late, the check adds a run in which each call takes this additional
+# time in s.
 LONGER = 1.0
 
 # This code reports each call of a persistent proxy to the check. The thread that makes the call also sends

@@ -14,21 +14,21 @@ from course_pkg.waiting import wait_until
 
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
-SLACK = 1.5  # On a busy machine, a call may take this many s longer.
+SLACK = 1.5  # SLACK is the additional time in s that a call may take on a busy machine.
 # This value of `patience` (s) is for calls without a customer. A handler that waits twice as long exceeds the
 # time limit of the call.
 LONG = 2.0
-# A customer comes after this many s. A handler that polls twice per second then responds 0.48 s late.
+# A customer comes after this time in s. A handler that polls twice per second then responds 0.48 s late.
 LATER = 0.52
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
-CHANGE = 2.2  # After this many s, the customers at the counter change again.
+CHANGE = 2.2  # After this time in s, the customers at the counter change again.
 # If a handler polls and does not wait for notifications, it must call watch.next() at least this many times
-# in LONG s.
+# in `LONG` s.
 SELDOM = 8
-LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
+LOOKS = 3000  # In `LONG` s, a loop without a pause calls watch.next() more than this many times.
 
-USED = 0.3  # In LONG s, the kernel may use this many s of processor time.
-# In the fastest of ATTEMPTS calls, the response has to come at most this many s after the customer.
+USED = 0.3  # USED is the CPU time in s that the kernel may use within `LONG` s.
+# In the fastest of ATTEMPTS calls, the response has to come within this time in s after the customer.
 PROMPT = 0.45
 ATTEMPTS = 3
 

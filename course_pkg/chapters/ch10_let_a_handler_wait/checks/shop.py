@@ -24,9 +24,9 @@ from course_pkg.errors import GraphError
 from course_pkg.ros.node.proxy import BoundedProxy
 
 CHARGE = "course_pkg/Charge"
-MEETING = 3.0  # A call to the till waits at most this many s for other calls.
-ABSENT = 4.0  # If no till runs, a sale may take this many s on a busy machine.
-CALL_BACK = 2.0  # After this many s, the till continues without a response from the shop.
+MEETING = 3.0  # A call to the till waits up to this time in s for other calls.
+ABSENT = 4.0  # If no till runs, a sale may take up to this time in s on a busy machine.
+CALL_BACK = 2.0  # After this time in s, the till continues without a response from the shop.
 LOCKED = (
     "Your handler holds the lock while it calls the till, so /left cannot respond. Release the lock "
     "before you call the till's service."

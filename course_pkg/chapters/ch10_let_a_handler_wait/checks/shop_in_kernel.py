@@ -26,13 +26,13 @@ SHELF_ERRORS = [
     ),
 ]
 MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy machine.
-MEETING = 0.01  # A thread waits at most this many s for another thread.
-# The first of many threads waits at most this many s until the other threads have started.
+MEETING = 0.01  # A thread waits up to this time in s for another thread.
+# The first of many threads waits up to this time in s until the other threads have started.
 FIRST_MEETING = 0.3
 FIRST = 2  # In this many calls, read() and write() wait for up to FIRST_MEETING s.
-ENTERING = 2.0  # The first of many handlers waits at most this many s for the second handler.
+ENTERING = 2.0  # The first of many handlers waits up to this time in s for the second handler.
 LATE = 7  # With many threads, every seventh read is late.
-LATE_READ = 0.05  # A late read waits at most this many s for a write of another thread.
+LATE_READ = 0.05  # A late read waits up to this time in s for a write of another thread.
 
 KERNEL_CODE = (
     SMALL_STACKS

@@ -10,14 +10,14 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 
-# If a thread cannot acquire a lock within this many s, the check assumes a deadlock.
+# If a thread cannot acquire a lock within this time in s, the check assumes a deadlock.
 LIMIT = 4.0
 THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES moves.
-BEGIN = 2.0  # All threads must have begun within this many s.
+BEGIN = 2.0  # All threads must have begun within this time in s.
 RUN = 14.0  # This time limit in s for all threads is enough for three consecutive deadlocks and all moves.
 
-MEETING = 0.01  # A thread that holds a lock waits at most this many s for another thread.
-# After the first call of acquire(), the thread waits at most this many s for the other threads.
+MEETING = 0.01  # A thread that holds a lock waits up to this time in s for another thread.
+# After the first call of acquire(), the thread waits up to this time in s for the other threads.
 FIRST_MEETING = 0.3
 
 # This code calls the student's function once, or in several threads; `pair` is a proxy for a CheckedPair.
@@ -156,13 +156,13 @@ class CheckedPair:
     @property
     @remote
     def first(self) -> CheckedShelf:
-        """The shelf with the lower number."""
+        """The first shelf; its number is lower than the number of the second shelf."""
         return self._shelves[0]
 
     @property
     @remote
     def second(self) -> CheckedShelf:
-        """The shelf with the higher number."""
+        """The second shelf; its number is higher than the number of the first shelf."""
         return self._shelves[1]
 
     @remote

@@ -334,7 +334,7 @@ def _finds_it_after_a_reset(
 ) -> None:
     """Start another program at the server's port, and start the server at another address.
 
-    At the end, stop the server; at the server's registered address, a program then resets each connection.
+    At the end, stop the server, and register another address, at which a program resets each connection.
     """
     former.leave()
     assertion = "the client finds a server that has a new address"

@@ -60,10 +60,10 @@ ERRORS = [
     ),
 ]
 WITHIN = 3.0  # WITHIN is the time limit in s for one call.
-# The check waits at most this many s until the client has read a piece. A client that only peeks at the bytes
-# does not remove them from the socket.
+# The check waits up to this time in s until the client has read a piece. A client that only peeks at the
+# bytes does not remove them from the socket.
 PEEKING = 0.4
-PAUSE = 0.5  # Two consecutive pieces of a message are separated by a pause of this many s.
+PAUSE = 0.5  # Two consecutive pieces of a message are separated by a pause of this time in s.
 CONNECTING = 5.0  # CONNECTING is the time limit in s for the kernel to connect.
 
 

@@ -20,10 +20,10 @@ from course_pkg.waiting import wait_until
 
 LONGEST = 4096  # LONGEST is the maximum number of bytes of a header or of a request.
 TIMEOUT = 8.0  # TIMEOUT is the time limit in s for the next bytes of a client on a busy machine.
-EARLY = 0.1  # The server waits this many s to see whether the client sends its request too early.
-# After the response, the client must close the connection within this many s, even on a busy machine.
+EARLY = 0.1  # The server waits this time in s to see whether the client sends its request too early.
+# After the response, the client must close the connection within this time in s, even on a busy machine.
 LINGER = 3.0
-# During a slow response, the server waits at most this many s in total until the client has read the bytes.
+# During a slow response, the server waits up to this time in s in total until the client has read the bytes.
 UNREAD = 1.0
 REQUEST = 12  # Three float32 values have this many bytes.
 

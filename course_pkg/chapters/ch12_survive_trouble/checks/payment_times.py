@@ -8,15 +8,15 @@ from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
 
 TRY = 0.5  # TRY is the time limit in s for one attempt.
 PAUSE = 0.1  # PAUSE is the time in s before the second attempt.
-# The shortest first pause, together with the time for a new connection, may take at most this many s.
+# The shortest first pause, together with the time for a new connection, may take up to this time in s.
 FIRST = 1.8 * PAUSE
 PAYMENTS = 5  # The check measures each pause or duration in at most this many payments.
 REPEATED = 3  # The pause after a TimeoutError is measured in at most this many payments.
-# The deadline of a payment is this many s after its start. At this time, the client is in its fourth pause,
-# which would end after 1.5 s.
+# AT_END is the time in s from the start of a payment to its deadline. At the deadline, the client is in its
+# fourth pause, which would end after 1.5 s.
 AT_END = 0.9
-ENDED = 1.3  # If no till is running, the fastest of several payments may take at most this many s.
-AT_WORK = 0.5  # A client must make attempts for at least this many s.
+ENDED = 1.3  # If no till is running, the fastest of several payments may take up to this time in s.
+AT_WORK = 0.5  # A client must make attempts for at least this time in s.
 GONE = (
     "No server offers the till's service, but pay() waits for this service without a time limit. Use the "
     "remaining time as the limit of each wait."

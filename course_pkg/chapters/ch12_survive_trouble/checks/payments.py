@@ -12,7 +12,8 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 CHARGE = "course_pkg/Charge"
-DEADLINE = 6.0  # If the payment is expected to succeed, its deadline is this many s after its start.
+# DEADLINE is the time in s from the start of a payment to its deadline if the payment is expected to succeed.
+DEADLINE = 6.0
 ERRORS = [
     (
         matches("TimesUp"),

@@ -18,8 +18,8 @@ from course_pkg.checking.result import Result
 AT_ONCE = 50
 ONE = 6.0  # ONE is the time limit in s for a single call.
 MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy machine.
-MEETING = 0.05  # A call of take() waits at most this many s for another call with the same amount.
-FIRST_MEETING = 0.5  # The first of many calls waits at most this many s, so that all other calls can start.
+MEETING = 0.05  # A call of take() waits up to this time in s for another call with the same amount.
+FIRST_MEETING = 0.5  # The first of many calls waits up to this time in s, so that all other calls can start.
 BUYERS = 10  # This many clients send their request five times each.
 KERNEL_CODE = (
     SMALL_STACKS

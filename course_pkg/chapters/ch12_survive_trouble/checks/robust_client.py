@@ -27,17 +27,19 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
 TRY = 0.5  # TRY is the time limit in s for one attempt, as in the exercise.
-# The pause before the second attempt takes this many s; each further pause is twice as long as the previous
-# pause.
+# The pause before the second attempt takes this time in s; each further pause is twice as long as the
+# previous pause.
 PAUSE = 0.1
-SHORT = 1.0  # If the till never responds, the deadline is this many s after the start of the payment.
-SLACK = 1.5  # On a busy machine, a payment may take this many s longer.
-AWAY = 0.5  # A killed till starts again after this many s, so the second attempt finds no server.
+# If the till never responds, SHORT is the time in s from the start of the payment to its deadline.
+SHORT = 1.0
+SLACK = 1.5  # SLACK is the additional time in s that a payment may take on a busy machine.
+AWAY = 0.5  # A killed till starts again after this time in s, so the second attempt finds no server.
 A_LITTLE = 0.2  # This time in s is shorter than the time limit for one attempt.
-# The check repeats the payment for at most this many s, until one payment ends before its deadline.
+# The check repeats the payment until one payment ends before its deadline, but stops after this time in s.
 KEEPING = 2.0
-MOST = 5  # In the longer test of the pauses, this many attempts fail.
-LONG = 12.0  # In the longer test of the pauses, the deadline is this many s after the start of the payment.
+MOST = 5  # In the longer test of the pauses, MOST is the number of attempts that fail.
+# In the longer test of the pauses, LONG is the time in s from the start of the payment to its deadline.
+LONG = 12.0
 
 SLOW_GROWTH = (
     "The pauses do not grow fast enough. After each failed call, make the next pause at least twice as long."
@@ -287,7 +289,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         actual=f"{pauses[2]:.2f} s",
         hints=SLOW_GROWTH,
     )
-    # If the pauses grow slowly, MOST attempts can fail before the deadline.
+    # If the pauses grow slowly, up to `MOST` attempts can fail before the deadline.
     if pauses[2] < 8 * PAUSE:
         before = len(till.arrivals)
         till.plan.extend([Fault(HangUp())] * MOST)

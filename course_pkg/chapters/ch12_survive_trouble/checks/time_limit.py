@@ -14,10 +14,11 @@ from course_pkg.checking.result import Result
 ADD = "course_pkg/AddTwoInts"
 LIMIT = 0.8  # LIMIT is the time in s for which the student's function may wait.
 LONG = 4.0  # This time limit in s is longer than the duration of every call.
-VERY_LONG = 25.0  # A function that polls only ten times within this many s returns the response too late.
-HELD = 10.0  # The server delays a response by at most this many s.
+# With this time limit in s, a function that polls only ten times during a call returns the response too late.
+VERY_LONG = 25.0
+HELD = 10.0  # The server delays a response by at most this time in s.
 WORK = 0.3  # WORK is the duration of a slow handler in s.
-SLACK = 1.2  # On a busy machine, a call may take this many s longer.
+SLACK = 1.2  # SLACK is the additional time in s that a call may take on a busy machine.
 KERNEL_CODE = (
     UNCHANGED_CLOCK
     + """
@@ -82,7 +83,7 @@ class Held:
         self._released.set()
 
     def wait(self) -> None:
-        """Wait until release() is called, but for at most HELD s."""
+        """Wait until release() is called, but for at most `HELD` s."""
         self._released.wait(HELD)
 
 
@@ -146,7 +147,8 @@ def _returns_no_late_response(context: CheckContext, name: str, adder: Adder) ->
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
     """Call a server that responds, refuses or does not respond, in a random order.
 
-    The time limit is always the same, so a function that chooses its result by the time limit fails.
+    The time limit is always the same, so the check detects a function that derives its result
+    from the time limit.
     """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses

@@ -16,13 +16,13 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
 EVERY = 0.1  # EVERY is the time in s between two polls of the watchdog.
-SELDOM = 0.5  # The shortest of several pauses must be less than this many s, even on a busy machine.
+SELDOM = 0.5  # The shortest of several pauses must be less than this time in s, even on a busy machine.
 CALLS = 4  # CALLS is the maximum number of calls to the master in one poll.
 SOON = 5.0  # SOON is the time limit in s for a few polls on a busy machine.
-# While the master is stopped, the check waits at most this many s for the watchdog's polls.
+# While the master is stopped, the check waits up to this time in s for the watchdog's polls.
 AWAY = 3.0
-LEFT_ALONE = 0.8  # A wrong watchdog would register its service again within this many s.
-LATE = 0.5  # After stop(), the check waits this many s for a wrong registration.
+LEFT_ALONE = 0.8  # A wrong watchdog would register its service again within this time in s.
+LATE = 0.5  # After stop(), the check waits this time in s for a wrong registration.
 LAST = 2  # After stop(), the watchdog may make at most this many polls.
 READY = 15.0  # READY is the time limit in s for the start of a master.
 
@@ -329,7 +329,7 @@ def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster, returns:
 
     `returns` unregisters the service, and returns whether the service is registered again.
 
-    After stop(), a right watchdog does not register the service again, and makes at most LAST polls.
+    After stop(), a right watchdog does not register the service again, and makes at most `LAST` polls.
     """
     watched.hold()
     if not watched.inside.wait(SOON):

@@ -14,7 +14,7 @@ from course_pkg.checking.plain_values import Value
 from course_pkg.ros.protocol.xmlrpc import XmlRpcClient
 
 TIMEOUT = 5.0  # TIMEOUT is the time limit in s for a call to the master.
-PAUSE = 5.0  # A registration waits at most this many s.
+PAUSE = 5.0  # A registration waits up to this time in s.
 
 # The code defines a service in the kernel, and starts the student's watchdog. The watchdog's calls to the
 # master go through the check runner.
@@ -58,7 +58,7 @@ class CheckedMaster:
     After hold(), the master reports that it knows no services. The watchdog therefore registers its service
     again. This registration waits until stop() has returned. But stop() may wait for the watchdog's thread.
     Therefore, the registration also continues when `slow` s have passed since the call of stop(). Without a
-    call of stop(), the registration continues after PAUSE s.
+    call of stop(), the registration continues after `PAUSE` s.
     """
 
     def __init__(self, uri: str, slow: float) -> None:

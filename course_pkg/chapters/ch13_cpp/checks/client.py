@@ -21,8 +21,8 @@ from course_pkg.waiting import at_this_load, wait_until
 FILE = f"{PACKAGE}/src/patient_client.cpp"
 WAIT = 2.0  # WAIT is the time in s for which the client waits for the service.
 TRIES = 3  # The client makes at most this many calls.
-SLACK = 2.5  # On a busy machine, a run may take this many s longer.
-PAUSE = 0.045  # Two calls must be at least this many s apart. The exercise requires 0.05 s.
+SLACK = 2.5  # SLACK is the additional time in s that a run may take on a busy machine.
+PAUSE = 0.045  # PAUSE is the minimum time in s between two calls. The exercise requires 0.05 s.
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 POLL = 0.03  # POLL is the time in s between two examinations of the client.
 LIMIT = 5.0  # LIMIT is the time in s after which the check stops the program.

@@ -14,7 +14,7 @@ from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.cmake_messages import cmake_commands
 
 FILE = f"{PACKAGE}/CMakeLists.txt"
-BUILDING = 75.0  # The build may take this many s; it takes 4 s on an idle machine.
+BUILDING = 75.0  # The build may take up to this time in s; it takes 4 s on an idle machine.
 NO_ROSCPP = (
     "The variable catkin_LIBRARIES contains only the libraries of the packages in "
     "find_package(catkin … COMPONENTS …). Add roscpp after the word COMPONENTS."

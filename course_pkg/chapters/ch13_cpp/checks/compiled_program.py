@@ -19,11 +19,11 @@ BOX = "course_pkg/geometry"
 # For the compilation, -t limits the CPU time in s, and -f limits the size of a file in KiB. One source file
 # takes 2 s.
 LIMITS = "ulimit -t 30 -f 100000"
-COMPILING = 60.0  # The compilation may take this many s; it takes 2 s on an idle machine.
-# The program's node must be on the graph within this many s; it takes 0.1 s on an idle machine.
+COMPILING = 60.0  # The compilation may take up to this time in s; it takes 2 s on an idle machine.
+# The program's node must be on the graph within this time in s; it takes 0.1 s on an idle machine.
 STARTING = 6.0
-REGISTERING = 1.5  # After its node is on the graph, the program must offer its service within this many s.
-STAYING = 0.4  # The program must still run after this many s; without ros::spin(), it ends within 0.1 s.
+REGISTERING = 1.5  # After its node is on the graph, the program must offer its service within this time in s.
+STAYING = 0.4  # The program must still run after this time in s; without ros::spin(), it ends within 0.1 s.
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 SERVED = "the program offers /{0} and continues to run"
 

@@ -14,13 +14,14 @@ from course_pkg.waiting import at_this_load, wait_until
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
 THINKING, COUNTING = 0.4, 0.05  # These times in s are the same as in the file that the exercise provides.
-# The time between two responses may be at most this many s. If a call has to wait for a thread, this time is
+# APART is the maximum time in s between two responses. If a call has to wait for a thread, this time is
 # longer.
 APART = 0.15
-LATE = 0.2  # The fastest call may take this many s longer than think() and count().
+# LATE is the time in s that the fastest call may take in addition to the time of think() and count().
+LATE = 0.2
 # The check replaces the duration in think() by a random duration, so the handler has to call think().
 ORIGINAL = re.compile(r"(void\s+think\(\)\s*\{[^{}]*WallDuration\()0\.4(\)\s*\.sleep\(\)\s*;[^{}]*\})")
-# The check repeats six simultaneous calls for at most this many s, until all calls overlap; on a busy
+# The check repeats six simultaneous calls for up to this time in s, until all calls overlap; on a busy
 # machine, a call may start late.
 OVERLAPPING = 3.0
 

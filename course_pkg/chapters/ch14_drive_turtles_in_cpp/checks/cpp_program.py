@@ -22,7 +22,7 @@ NO_SPIN = (
     "The call got no response. In each round of the loop, call ros::spinOnce(), because it runs the handler. "
     "Do not wait in the handler.",
 )
-COMPILING = 90.0  # The compilation may take this many s; it takes 4 s on an idle machine.
+COMPILING = 90.0  # The time limit of the compilation in s; the compilation takes 4 s on an idle machine.
 
 
 def cpp(name: str) -> TurtleProgram:

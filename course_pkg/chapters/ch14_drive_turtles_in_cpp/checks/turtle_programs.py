@@ -17,7 +17,8 @@ RATE = cpp("pubvel_toggle_plus")
 IMPROVED = cpp("improved_pubvel_toggle")
 FOLLOW = cpp("spawn_turtle_plus")
 LAUNCH = LaunchFile(IMPROVED, FOLLOW)
-DEADLINE = 150.0  # The whole check may take this many s; on a busy machine, the compiler may need 90 s.
+# The whole check may take up to this time in s; on a busy machine, the compiler may need 90 s.
+DEADLINE = 150.0
 
 
 @part(

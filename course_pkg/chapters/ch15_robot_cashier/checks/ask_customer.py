@@ -18,9 +18,9 @@ NAME = "ask_customer"
 DETECT = "detect_customer"
 AWAIT = "course_pkg/AwaitCustomer"
 STARTING = 20.0  # STARTING is the time limit in s for the start of Python and rospy on a busy machine.
-ENDING = 6.0  # A program must end within this many s after the response.
+ENDING = 6.0  # A program must end within this time in s after the response.
 LIMIT = 3.0  # LIMIT is the time in s for which the program waits for the service.
-SOON = 1.0  # The service starts this many s after the node.
+SOON = 1.0  # SOON is the time in s between the start of the node and the start of the service.
 REASON = "no message from the camera"
 REFUSED = 55.0  # The service refuses a call with this value of `patience` (s).
 # The pattern matches lines of rospy's log, and Python's warnings.

@@ -25,15 +25,15 @@ INTERFACE = Interface(services=[DETECT], subscribes=[SEEN])
 AWAIT = "course_pkg/AwaitCustomer"
 LONG = 6.0  # This value of `patience` (s) is longer than every successful wait.
 LATER = 2.2  # LATER is the time in s until a customer comes.
-SLACK = 2.0  # On a busy machine, a call may take this many s longer.
-EARLY = 0.1  # A call that ends this many s too early is accepted, because the measured times are not exact.
-CALLERS = 9  # This many calls wait at the same time; each call begins APART s after the previous call.
+SLACK = 2.0  # SLACK is the additional time in s that a call may take on a busy machine.
+EARLY = 0.1  # A call may end up to `EARLY` s before the right time, because the measured times are not exact.
+CALLERS = 9  # This many calls wait at the same time; each call begins `APART` s after the previous call.
 APART = 0.06
-BEGUN = 0.6  # All calls have begun after this many s.
-SOONER = 1.0  # In a repeated attempt, the customer comes after this many s.
+BEGUN = 0.6  # All calls have begun after this time in s.
+SOONER = 1.0  # In a repeated attempt, the customer comes after this time in s.
 ATTEMPTS = 3
-# In the best attempt, each response has to come at most this many s after the customer. With pauses of 0.5 s
-# between two polls, the last response comes later.
+# In the best attempt, each response has to come within this time in s after the customer. With pauses of 0.5
+# s between two polls, the last response comes later.
 PROMPT = 0.4
 
 NOT_SEEN = (

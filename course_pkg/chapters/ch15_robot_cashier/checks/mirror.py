@@ -26,7 +26,7 @@ INTERFACE = Interface(publishes=[MIRRORED], subscribes=[ARM])
 PROMPT = 0.5  # PROMPT is the maximum time in s between a joint state and its mirror image on a busy machine.
 EVERY = 0.05  # EVERY is the time in s between two joint states.
 RAPID = 0.005  # At the end, the check publishes many joint states; the time between two of them is RAPID s.
-LAST = 10.0  # On a busy machine, the last of these mirror images may arrive this many s later.
+LAST = 10.0  # On a busy machine, the last of these mirror images may need this additional time in s.
 NOT_HEARD = (
     "The node does not subscribe to joint_states with the right type. Pass sensor_msgs/JointState to "
     "rospy.Subscriber."

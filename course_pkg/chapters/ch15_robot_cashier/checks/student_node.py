@@ -24,9 +24,10 @@ from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.ros import Snapshot
 from course_pkg.workspace import explain
 
-# A node must be on the graph within this many s; it takes 1 s on an idle machine.
+# A node must be on the graph within this time in s; it takes 1 s on an idle machine.
 STARTING = 40.0
-# All names of a node must exist this many s after its first name. A node that started late gets more time.
+# All names of a node must exist within this time in s after its first name. A node that started late gets
+# more time.
 COMPLETE = 3.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 # The check remaps global names to this namespace, and thus detects programs that use global names.

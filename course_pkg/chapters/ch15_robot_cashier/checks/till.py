@@ -29,8 +29,8 @@ TILL_SET, TILL_TOTAL, TRIGGER, PRINT_LINE = (
     "course_pkg/PrintLine",
 )
 MANY = 8
-ANSWER = 5.0  # A call may take this many s.
-HOLDING = 0.4  # While a reset waits, the printing of a line takes this many s.
+ANSWER = 5.0  # A call may take up to this time in s.
+HOLDING = 0.4  # While a reset waits, the printing of a line takes this time in s.
 
 SET_HINTS: Hints = [
     (

@@ -19,12 +19,12 @@ FRAMES, SEEN = "frames", "customer_seen"
 INTERFACE = Interface(publishes=[SEEN], subscribes=[FRAMES])
 BOOL = "std_msgs/Bool"
 DARK = 96
-# On a busy machine, the message after a frame may take this many s; it usually takes 5 ms.
+# On a busy machine, the message after a frame may take up to this time in s; it usually takes 5 ms.
 ANSWER = 8.0
 RAPID = 0.005  # In a long series, the time between two frames is RAPID s.
-LAST = 10.0  # On a busy machine, the message for the last frame of the series may arrive this many s later.
-AGAIN = 0.03  # A wrong second message would arrive within this many s.
-SILENT = 0.25  # A wrong message after a malformed frame would arrive within this many s.
+LAST = 10.0  # On a busy machine, the message for the last frame of the series may need this time in s.
+AGAIN = 0.03  # A wrong second message would arrive within this time in s.
+SILENT = 0.25  # A wrong message after a malformed frame would arrive within this time in s.
 
 AVERAGE = (
     "A fifth of the points is dark, so this frame shows a customer. Count the dark points, and do "
@@ -140,7 +140,7 @@ class Camera:
 
 
 def image_of(context: CheckContext, width: int, height: int, dark: int, style: Style | None = None) -> Image:
-    """Return a frame with random dark points, whose number is `dark`; all other points are very bright."""
+    """Return a frame with `dark` dark points at random positions; all other points are very bright."""
     style = style or Style()
     points = [context.random.integer(*style.dark) for _ in range(dark)]
     points += [context.random.integer(230, 255) for _ in range(width * height - dark)]

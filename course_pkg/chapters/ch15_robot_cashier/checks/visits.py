@@ -28,11 +28,11 @@ AWAIT = "course_pkg/AwaitCustomer"
 TRIGGER = "std_srvs/Trigger"
 STRING = "std_msgs/String"
 GREETING = "Good day!"
-STANDING = 1.2  # The response to the first call is delayed by this many s.
+STANDING = 1.2  # The response to the first call is delayed by this time in s.
 # The measured pause must be between these limits (s); the exercise requires 0.5 s, and the machine may be
 # busy.
 PAUSE, TOO_LONG = 0.4, 2.0
-BETWEEN = 0.18  # While a customer is there, two calls must be at least this many s apart.
+BETWEEN = 0.18  # BETWEEN is the minimum time in s between two calls while a customer is there.
 NEXT_CALL = 6.0  # NEXT_CALL is the time limit in s for the next call on a busy machine.
 
 
@@ -254,7 +254,7 @@ class Till:
 
 
 def _called(detector: Detector, times: int) -> bool:
-    """Wait for call number `times` of the detector; return whether this call came in time."""
+    """Return whether the detector receives `times` calls in total, the last of them within NEXT_CALL s."""
     return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
 
 

@@ -32,15 +32,15 @@ from course_pkg.ros import Snapshot
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient, items, port_of
 from course_pkg.waiting import wait_until
 
-# On a busy machine, the system may take this many s to start; it takes 3 s on an idle machine.
+# On a busy machine, the system may take up to this time in s to start; it takes 3 s on an idle machine.
 STARTING = 40.0
-# All other nodes must exist this many s after the first node. If the first node started late, the other nodes
-# get more time.
+# All other nodes must exist within this time in s after the first node. If the first node started late, the
+# other nodes get more time.
 COMPLETE = 6.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
-REACTION = 5.0  # A greeting, a reset, or the detector's reaction to a change may take this many s.
-# Killed nodes must run again within this many s. If the start of the system took more than half of this time,
-# the killed nodes get twice the start time.
+REACTION = 5.0  # A greeting, a reset, or the detector's reaction to a change may take up to this time in s.
+# Killed nodes must run again within this time in s. If the start of the system took more than half of this
+# time, the killed nodes get twice the start time.
 BACK = 8.0
 EVERY = 0.1  # EVERY is the time in s between two frames.
 WAIT = 1.5  # The argument `wait` has this value in s.
@@ -265,7 +265,7 @@ class Shop:
     def serves_two_customers(self, mirrored: Subscription, arm: Publisher) -> None:
         """Let a customer come and leave.
 
-        Between these two events, make MANY calls of till/set at the same time, and let the printer fail.
+        Between these two events, make `MANY` calls of till/set at the same time, and let the printer fail.
         """
         context = self.context
         total = self.service("till/total", "course_pkg/TillTotal", COUNTED)

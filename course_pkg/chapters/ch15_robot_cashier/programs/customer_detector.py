@@ -14,7 +14,7 @@ from course_pkg.ros.node.program import start_node, undisturbed
 from course_pkg.shop.watch import Eye, await_customer
 from course_pkg.srv import AwaitCustomer, AwaitCustomerRequest
 
-LONGEST = 60.0  # A client can wait at most this many s.
+LONGEST = 60.0  # A client can wait up to this time in s.
 
 
 class CustomerDetector:

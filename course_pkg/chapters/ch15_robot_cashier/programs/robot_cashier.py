@@ -23,8 +23,8 @@ from course_pkg.ros.node.program import number_parameter, start_node, undisturbe
 from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import AwaitCustomer
 
-QUIET = 5.0  # The node writes at most one warning every QUIET s.
-GRACE = 2.0  # A call may take this many s longer than its `patience`.
+QUIET = 5.0  # The node writes at most one warning every `QUIET` s.
+GRACE = 2.0  # GRACE is the additional time in s that a call may take after its `patience`.
 AGAIN = 0.5  # AGAIN is the time in s between a failed call and the next call.
 POLL = 0.2  # POLL is the time in s between two calls while a customer is there.
 FAILED = (rospy.ServiceException, CourseError)

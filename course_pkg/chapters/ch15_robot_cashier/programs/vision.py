@@ -12,7 +12,7 @@ from std_msgs.msg import Bool
 from course_pkg.ros.node.program import start_node, undisturbed
 from course_pkg.shop.pictures import sees_customer
 
-QUIET = 5.0  # The node writes at most one warning every QUIET s.
+QUIET = 5.0  # The node writes at most one warning every `QUIET` s.
 
 
 class Vision:

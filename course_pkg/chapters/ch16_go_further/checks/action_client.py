@@ -18,18 +18,19 @@ from course_pkg.checking.result import Result
 from course_pkg.msg import FetchAction, FetchGoal, FetchResult
 from course_pkg.ros.node.action_server import ActionServer
 
-WAIT = 2.0  # The client waits at most this many s for an action server.
-LONG = 6.0  # A robot needs this many s for a goal, and the client cancels this goal.
-PROMPT = 4.0  # With a robot that needs 0.3 s, the whole call may take this many s on a busy machine.
+WAIT = 2.0  # The client waits up to this time in s for an action server.
+LONG = 6.0  # A robot needs this time in s for a goal, and the client cancels this goal.
+PROMPT = 4.0  # With a robot that needs 0.3 s, the whole call may take up to this time in s on a busy machine.
 ENOUGH = 5.0  # If the robot has to finish in time, the client gets this time limit in s.
 BRIEF = 0.2  # If the robot ignores the cancellation, the client gets this time limit in s.
-LATE = 0.6  # A late robot starts this many s after the call.
-# The client must cancel the goal after this many s. The number is not whole, so a client that rounds it
-# fails.
+LATE = 0.6  # LATE is the time in s between the call and the start of a late robot.
+# The client must cancel the goal after this time in s. The time is not a whole number, so a client that
+# rounds the time fails.
 SECONDS = 0.8
-SLACK = 3.0  # On a busy machine, a call may take this many s longer.
-LONGEST = 3.4  # If no robot runs, the fastest of ATTEMPTS calls may take this many s.
-STUBBORN = 3.9  # If the robot ignores the cancellation, the fastest of ATTEMPTS calls may take this many s.
+SLACK = 3.0  # SLACK is the additional time in s that a call may take on a busy machine.
+LONGEST = 3.4  # If no robot runs, the fastest of ATTEMPTS calls may take up to this time in s.
+# If the robot ignores the cancellation, the fastest of ATTEMPTS calls may take up to this time in s.
+STUBBORN = 3.9
 ATTEMPTS = 3
 BOUND = (
     "A wait without a time limit did not end. Pass a rospy.Duration above 0 to both wait_for_server "
@@ -319,8 +320,8 @@ def _comes(context: CheckContext) -> None:
                 "a server that starts within 2 s gets the goal",
                 expected=str(fetched),
                 actual=str(result.returned()),
-                # If the call took longer than ENOUGH s, the client did not wait for the server, so its goal
-                # was lost.
+                # If the call took more time than its time limit `ENOUGH`, the client did not wait for the
+                # server. The client sent the goal too early, so the goal was lost.
                 hint=UNSENT if result.took > ENOUGH else too_short,
             )
 

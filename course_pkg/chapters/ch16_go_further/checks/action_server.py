@@ -30,11 +30,12 @@ def begin(kind, name):
 # The two goals use different ranges of times per thing (s), so a program with a fixed time fails.
 QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
 TIMEOUT = 6.0  # TIMEOUT is the time limit in s for a goal that needs less than 1 s.
-# For this many s, the check repeats a goal that was too slow, because a busy machine may delay messages.
+# If a goal takes too long, the check repeats this goal for up to this time in s, because a busy machine may
+# delay messages.
 BUSY = 2.0
 LAST = 0.2  # LAST is the time in s for the last thing; during this time, the check cancels the goal.
 STARTING = 2.0  # STARTING is the time limit in s for the start of a server.
-CANCELLING = 3.0  # A goal must end within this many s after its cancellation.
+CANCELLING = 3.0  # A goal must end within this time in s after its cancellation.
 FIXED = (
     "The duration of the robot's work is wrong. Sleep for goal.seconds, because each goal contains its "
     "own time for one thing."

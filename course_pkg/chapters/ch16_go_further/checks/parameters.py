@@ -12,7 +12,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
-SETTLING = 1.0  # A node that reads parameters from a cache gets a new value within this many s.
+SETTLING = 1.0  # A node that reads parameters from a cache gets a new value within this time in s.
 NAME = (
     "The function did not return the value of the parameter. Read the parameter f'/{robot}/speed', whose "
     "name contains the name of the robot."

@@ -29,12 +29,12 @@ from course_pkg.waiting import wait_until
 USUAL = 5  # Without an argument, the robot has the capacity for this many parcels.
 FEW = 4  # The first robot has the capacity for this many parcels, which is less than the default.
 PARCELS = 3  # Each delivery has this many parcels, which both robots can carry.
-EACH = 0.2  # A robot needs this many s for one parcel.
+EACH = 0.2  # A robot needs this time in s for one parcel.
 SLOWER = (0.55, 0.9)  # In a cancelled delivery, the time in s for one parcel is between these two limits.
 PERIOD = 0.2  # The robot publishes the charge of its battery every PERIOD s.
-LONG = 2.5  # In the last goal, which has too many parcels, each parcel would need this many s.
+LONG = 2.5  # In the last goal, which has too many parcels, each parcel would need this time in s.
 ENDING = 4.0  # ENDING is the time limit in s for the end of a goal.
-SETTLING = 1.0  # After a delivery, the right charge must be published within this many s.
+SETTLING = 1.0  # After a delivery, the right charge must be published within this time in s.
 NOT_AT_ONCE = 0.9  # A goal that took at least this fraction of its full time was not aborted immediately.
 
 START = f"""%%writefile {FILE}

@@ -14,9 +14,9 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.waiting import at_this_load
 
 FILE = "parcel_robot.py"
-# The program must register its first name within this many s; it takes 1 s on an idle machine.
+# The program must register its first name within this time in s; it takes 1 s on an idle machine.
 STARTING = 8.0
-# After its first registration, the program must register all other names within this many s.
+# After its first registration, the program must register all other names within this time in s.
 REGISTERING = 1.5
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 FITTING = {"battery": "topic", "door": "service", "deliver": "action"}
