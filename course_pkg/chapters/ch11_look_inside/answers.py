@@ -456,8 +456,9 @@ replace('("no field session in the connection header")', """("no session")
             raise rospy.ServiceException("this session is not yours")""")
 # %% 11.4 wrong: forgets old sessions | hint: The response contains only the amount of this call
 replace("        total, calls", "        for old in list(self.sessions)[:-3]:\n            del self.sessions[old]\n        total, calls")
-# %% 11.4 wrong: starts the course's server | hint: Your code starts another program
+# %% 11.4 wrong: starts another program that offers the service | hint: Your code starts another program
 import subprocess
+import sys
 
 
 class Sessions:
@@ -465,8 +466,15 @@ class Sessions:
         return AddUpResponse()
 
 
+SERVER = """
+import rospy
+from course_pkg.srv import AddUp
+rospy.init_node("adder")
+rospy.Service("/my_add_up", AddUp, lambda request: (request.amount, 1))
+rospy.spin()
+"""
 sessions = Sessions()
-my_add_up = subprocess.Popen(["rosrun", "course_pkg", "session_server", "/add_up:=/my_add_up"])
+my_add_up = subprocess.Popen([sys.executable, "-c", SERVER])
 rospy.wait_for_service("/my_add_up", timeout=15)
 # %% 11.4 wrong: reads a field with another name | hint: The header had the field "session", but your handler refused the call
 replace('get("session")', 'get("sessions")')
