@@ -24,7 +24,8 @@ The requests, their arguments, and the fields of the replies:
     start    argv, folder                 process (the number of the process)
     poll     process                      status (null while the process runs)
     stop     process                      as for run; status is null if the process was still running
-    ports    process                      ports (the TCP ports on which the command listens)
+    ports    process                      ports (the TCP ports on which the command listens), own (only the
+                                          ports of the command's own process)
     programs process                      programs (the SHA-256 sum and the name of each file that the
                                           processes of the command execute)
 

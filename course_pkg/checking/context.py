@@ -17,6 +17,7 @@ from course_pkg.checking.commands.folder import SLACK, Folder
 from course_pkg.checking.formatting import shown
 from course_pkg.checking.peers.faulty_server import FaultyServer, Work
 from course_pkg.checking.peers.node import FakeNode, Node, held_back
+from course_pkg.checking.peers.processor_time import time_of_process
 from course_pkg.checking.peers.publisher import Publisher
 from course_pkg.checking.peers.scripted_server import Absent, Script, ScriptedServer
 from course_pkg.checking.peers.service_calls import TIMEOUT, Service
@@ -44,11 +45,12 @@ class CheckContext:
     of the run, all servers, topics and folders of the run are closed.
     """
 
-    def __init__(self, check: str, channel: Channel, node: Node, seed: int) -> None:
+    def __init__(self, check: str, channel: Channel, node: Node, seed: int, kernel: int = 0) -> None:
         self.random = RandomInputs(f"{seed}:{check}")
         self.doing = ""  # The report shows this text if the check is too slow.
         self._channel = channel
         self._node = node
+        self._kernel = kernel
         self._results = Results()
         self._open = ExitStack()
         self._placed: PlacedObjects | None = None
@@ -317,6 +319,14 @@ class CheckContext:
         if self._placed is None:
             self._placed = self._open.enter_context(PlacedObjects())
         self._channel.ask("place", timeout=SLACK, name=name, **self._placed.place(item))
+
+    def processor_time(self) -> float:
+        """Return the CPU time in s that the kernel has used so far.
+
+        This process measures the time, because the student's code can change a time that the kernel reports.
+        If the process of the kernel is not known, the result is 0.
+        """
+        return time_of_process(self._kernel) if self._kernel else 0.0
 
     def command(self, *argv: str, files: Sequence[str] = (), within: float = 10.0) -> Finished:
         """Run a command on the kernel's computer, in a new folder with copies of the student's `files`.

@@ -58,7 +58,7 @@ def _found(name: str) -> tuple[Fault, ...]:
     found = tuple(each for each in every_fault() if name in (each.name, each.group))
     if not found:
         raise UnknownFault(
-            f"There is no fault {name!r}. Choose one of the groups {', '.join(GROUPS)}, or one of the "
+            f"No fault has the name {name!r}. Choose one of the groups {', '.join(GROUPS)}, or one of the "
             f"faults {', '.join(names())}."
         )
     return found

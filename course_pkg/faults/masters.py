@@ -146,7 +146,7 @@ MASTERS: tuple[Fault, ...] = (
         remedy="Write the whole address: http://localhost:11311.",
         reason=(
             "An address begins with http://. Without http://, init_node() behaves as if the master "
-            "had not started yet. The tools show that master and server work."
+            "had not started yet. The tools show that the master and the server work."
         ),
         hangs=True,
     ),

@@ -26,6 +26,8 @@ class Message(TypedDict, total=False):
     job: bool  # The worker sends a job.
     supervisor: int  # This is the process id of a supervisor that has started its processes.
     port: int  # The master of the part uses this port.
+    # This is the process id of a process. The answer runs in this process, or in a descendant.
+    student: int
     over: int  # A supervisor and all its descendants have ended; this is the supervisor's wait status.
 
 

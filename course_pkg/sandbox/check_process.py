@@ -29,9 +29,13 @@ def check_part(
     commands: socket.socket,
     out: int,
     *,
+    kernel: int,
     isolation: Isolation,
 ) -> NoReturn:
-    """Run the check of the job, and write its record to the file `out`, as one JSON object."""
+    """Run the check of the job, and write its record to the file `out`, as one JSON object.
+
+    `kernel` is the id of the process in which the answer runs.
+    """
     if isolation.namespaces:
         namespaces.enter(network, namespaces.NETWORK)
     if isolation.users:
@@ -40,7 +44,7 @@ def check_part(
         ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOSTNAME="localhost", COURSE_SEED=str(job.seed)
     )
     try:
-        report = run_check(SplitChannel(client, commands), only=job.check)
+        report = run_check(SplitChannel(client, commands), only=job.check, kernel=kernel)
     except ChannelError as error:
         report = replace(
             _undecided(job, f"The kernel gave no valid answer: {error}."), verdict=Verdict.FAILED

@@ -74,7 +74,7 @@ def supervise(
         # open.
         os.close(commands)
         descriptors = network.fileno(), listener.fileno()
-        send(fork_server, {"supervisor": os.getpid(), "port": port}, descriptors)
+        send(fork_server, {"supervisor": os.getpid(), "port": port, "student": student}, descriptors)
     status = _watch(student, folder, isolation)
     _end_all(folder, isolation)
     os._exit(status)

@@ -99,6 +99,7 @@ class Session:
         self._isolation = isolation
         self._over: int | None = None  # This is the wait status of the supervisor.
         self._supervisor = 0
+        self._student = 0  # The answer runs in this process, or in a descendant of this process.
         self._began = time.monotonic()
         self._limit = job.limit  # The limit in s depends on the current load of the machine.
 
@@ -147,7 +148,7 @@ class Session:
             raise EOFError
         network, listener = descriptors
         stack.callback(os.close, network)
-        self._supervisor = int(message["supervisor"])
+        self._supervisor, self._student = int(message["supervisor"]), int(message["student"])
         return network, int(message["port"]), stack.enter_context(socket.socket(fileno=listener))
 
     def _checked(
@@ -188,7 +189,16 @@ class Session:
         namespaces.die_with_parent()
         # The memory of the check runner is limited, because a submission may send any amount of data.
         namespaces.limit(AS=confinement.CHECK_RUNNER)
-        check_part(self._job, network, port, client, commands, out, isolation=self._isolation)
+        check_part(
+            self._job,
+            network,
+            port,
+            client,
+            commands,
+            out,
+            kernel=confinement.innermost(self._student) if self._isolation.namespaces else self._student,
+            isolation=self._isolation,
+        )
 
     def _wait(self, files: Sequence[int | socket.socket]) -> list[int | socket.socket]:
         """Wait until one of the files is ready, the supervisor ends, or the job reaches its time limit."""

@@ -20,6 +20,12 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
         "add_executable.",
     ),
     (
+        r"(?:no matching function for call to|call of overloaded) .*advertiseService.*<lambda",
+        "advertiseService cannot use this lambda function directly.",
+        "Store the lambda function in a boost::function<bool(TYPE::Request&, TYPE::Response&)>, and pass "
+        "this object.",
+    ),
+    (
         r"no matching function for call to .*advertiseService",
         "advertiseService got a function that is not a handler.",
         "Write bool NAME(TYPE::Request& request, TYPE::Response& response), with the same type in both "
@@ -77,6 +83,6 @@ def _unlinked(name: str) -> Fault:
         return Fault("The program has no function main.", "Write int main(int argc, char** argv) { … }.")
     return Fault(
         f"The program uses {name}, but the program is not linked with a library that contains {name}.",
-        "Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable. If you "
-        "wrote this function yourself, look for its definition.",
+        "Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable, with the same small "
+        "and capital letters. If you wrote this function yourself, look for its definition.",
     )

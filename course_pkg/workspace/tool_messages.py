@@ -135,8 +135,8 @@ FROM_TOOLS: tuple[Row, ...] = (
         "",
         "No package {name}{other} is on ROS_PACKAGE_PATH.",
         (
-            "Source devel/setup.bash of the package's workspace in this shell. Also check "
-            "the spelling of the package's name."
+            "In this shell, type `source devel/setup.bash` in the folder of the package's workspace. "
+            "Also check the spelling of the package's name."
         ),
     ),
     (
@@ -156,8 +156,8 @@ FROM_TOOLS: tuple[Row, ...] = (
         r"No module named '(?P<name>\w+)'",
         "",
         "Python cannot find the package {name}.",
-        "Source devel/setup.bash of the package's workspace. If this does not help, look for "
-        "generate_messages in the CMakeLists.txt of the package.",
+        "Type `source devel/setup.bash` in the folder of the package's workspace. If this does not help, "
+        "look for generate_messages in the CMakeLists.txt of the package.",
     ),
     (
         r"cannot import name '(?P<name>\w+)' from '(?P<module>[\w.]+)'",

@@ -126,6 +126,8 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
         ("roster.csv", False),
         ("grades/class.html", False),
         ("private/private_05.py", False),
+        ("points.json", False),
+        ("private/points.json", False),
     ],
 )
 def test_which_files_are_copied(name: str, released: bool) -> None:
@@ -144,6 +146,23 @@ def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
     expected = edition_files(ROOT, ["05"], ())
     assert set(edition_files(tmp_path, ["05"], ())) >= set(expected)
     assert not any("__pycache__" in name for name in edition_files(tmp_path, ["05"], ()))
+
+
+def test_the_points_of_an_instructor_are_not_released(tmp_path: Path) -> None:
+    """With a points.json in the checkout, the edition has the same files, with the points of the course."""
+    for name in git(ROOT, "ls-files", "--cached", "--others", "--exclude-standard").splitlines():
+        if (ROOT / name).is_file() and not name.startswith(("tests/", "deploy/")):
+            (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    expected = edition_files(tmp_path, ["05"], ())
+    for place in (tmp_path, tmp_path / "private", tmp_path / "grades"):
+        place.mkdir(exist_ok=True)
+        (place / "points.json").write_text('{"05.1": 40, "all parts": "all-or-nothing"}')
+    released = edition_files(tmp_path, ["05"], ())
+    assert released == expected
+    assert not any(b'"05.1": 40' in file.content for file in released.values())
+    assert "05.1: " in released["notebooks/05_write_a_server.ipynb"].content.decode()
+    assert "(2 points)" in released["notebooks/05_write_a_server.ipynb"].content.decode()
 
 
 def test_paths_and_chapters() -> None:

@@ -345,3 +345,42 @@ BUILD_SLOW = {
     "a configuration that waits without end": "execute_process(COMMAND sleep 1000)",
     "a target that waits without end": "add_custom_target(wait ALL COMMAND sleep 1000)",
 }
+
+# This code replaces replies of the kernel agent about the student's objects. The check must then fail,
+# because the check runner has to receive data that only a right answer can produce.
+EVIDENCE = """
+def forge():
+    import course_pkg.checking.kernel.agent as agent
+
+    original = agent.KernelAgent.reply
+    results = {
+        "longer": [1.0, 2.0, 3.0, 10],
+        "serialised": [1],
+        "new_server.open": None,
+    }
+    values = {
+        "shop.watch.looks": 100,
+        "shop.used": 0.0,
+        "shop.watch.changed.waits": 1,
+        "checked_call.busy": 0.0,
+    }
+
+    def reply(self, request):
+        do, name = request.get("do"), request.get("name")
+        known = {"answer": request.get("ask"), "value": results.get(name), "printed": "", "took": 0.1}
+        if do == "read" and name in values:
+            return {**known, "value": values[name]}
+        if do == "source" and name == "ask":
+            return {**known, "text": "def ask(uri, name, length, width, height):\\n    pass\\n"}
+        if do == "call" and (name in results or (name == "begin" and not request["args"])):
+            return known
+        got = original(self, request)
+        if do == "call" and name == "typed_header" and isinstance(got.get("value"), list):
+            got["value"][1:] = [True, "bytes"]
+        return got
+
+    agent.KernelAgent.reply = reply
+
+
+forge()
+"""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 import time
 from collections.abc import Iterator
@@ -31,6 +32,12 @@ file(WRITE ${folder}/srv/__init__.py "class geometry:\\n    _md5sum = 'MD5'\\n")
 add_custom_target(my_geometry_programs ALL
   COMMAND mkdir -p ${folder}/srv && echo "class geometry: _md5sum = 'MD5'" > ${folder}/srv/__init__.py)
 # message_runtime
+"""
+
+# Other packages read only the first line with the dependencies.
+APPENDS = """
+set(configuration ${CATKIN_DEVEL_PREFIX}/share/my_geometry/cmake/my_geometryConfig.cmake)
+file(APPEND ${configuration} "set(depends message_runtime)\\n")
 """
 
 
@@ -106,3 +113,13 @@ def test_a_forged_type_earns_no_points(worker: SandboxWorker) -> None:
     forged = FORGED_TYPE.replace("MD5", geometry_class()._md5sum)
     result = examined(worker, {LISTS: forged}, "07.3")
     assert points(result) == 0
+
+
+def test_a_second_line_with_dependencies_earns_no_points(worker: SandboxWorker) -> None:
+    """A line that CMakeLists.txt appends to the configuration does not replace CATKIN_DEPENDS."""
+    text = re.sub(r"CATKIN_DEPENDS[^)]*", "", my_geometry()[LISTS].decode())
+    report = examined(worker, {LISTS: text + APPENDS}, "07.3").report
+    assert report is not None
+    (failed,) = [each.text for each in report.assertions if not each.holds]
+    assert failed == "every package that uses this package also depends on message_runtime"
+    assert report.points == 2

@@ -259,6 +259,24 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
     assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
 
 
+# The error messages of GCC 12 for a lambda function as a handler: without and with a type in < >.
+LAMBDAS = [
+    "no matching function for call to 'ros::NodeHandle::advertiseService(const char [4], main(int, char**)::"
+    "<lambda(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)>)'",
+    "call of overloaded 'advertiseService(const char [4], main(int, char**)::"
+    "<lambda(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)>)' is ambiguous",
+]
+
+
+@pytest.mark.parametrize("message", LAMBDAS)
+def test_lambda_as_a_handler_is_explained(message: str) -> None:
+    """If advertiseService gets a lambda function, the advice names the type that roscpp needs."""
+    fault = explain(f"/home/you/workspace/src/boxes/src/box.cpp:7:58: error: {message}\n")
+    assert fault is not None
+    assert fault.place == "boxes/src/box.cpp, line 7"
+    assert "boost::function" in fault.remedy
+
+
 # Each entry of `SAID` has a command that runs after the build, and a text that the explanation must contain.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),

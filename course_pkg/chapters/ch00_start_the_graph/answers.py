@@ -35,6 +35,11 @@ replace("course_pkg/geometry", "/getGeometry")
 # %% 00.1 wrong: writes the type with a capital letter | hint: The name of this type
 replace("pkg/geometry", "pkg/Geometry")
 
+# %% 00.1 wrong: gives names that do not exist | hint: is not the name of the server's node … not the name of the service that … is not the type of
+replace("/SERVER_NODE", "/something")
+replace("/getGeometry", "/something")
+replace("course_pkg/geometry", "something")
+
 # %% 00.2 right: passes the sides by position
 def ask_for_volume(service, length, width, height):
     measure = rospy.ServiceProxy(service, geometry)
@@ -146,6 +151,8 @@ replace("return before, after,", "return after, before,")
 replace("(topic, UInt32", '("/nothing_here", UInt32', times=2)
 # %% 00.3 wrong: returns fixed numbers | hint: The numbers that your function
 replace("return before, after, after - before - 1", "return 17, 25, 7")
+# %% 00.3 wrong: estimates the second number | hint: The second number was not published
+replace("return before, after, after - before - 1", "return before, before + 500, 499")
 # %% 00.3 wrong: estimates the count from the rate | hint: Calculate the third number from the first two
 replace("after - before - 1", "int(pause * 2)")
 # %% 00.3 wrong: returns the count as a float | hint: The three results have to

@@ -21,7 +21,7 @@ replace(" getGeometry:=measure", "")
 replace("getGeometry:=measure", "measure:=getGeometry")
 # %% 01.1 wrong: does not rename the node | hint: Change the name of the
 replace(" __name:=measurer", "")
-# %% 01.1 wrong: puts only the service into the room's namespace | hint: The node is not in the namespace of the room
+# %% 01.1 wrong: puts only the service into the room's namespace | hint: The node is not in the namespace of the room … The nodes of two rooms
 replace("__ns:=/{room} ", "")
 replace("getGeometry:=measure", "getGeometry:=/{room}/measure")
 # %% 01.1 wrong: always uses the kitchen | hint: The name of the service is wrong.
@@ -50,7 +50,7 @@ replace('getGeometry:=measure"', 'getGeometry:=measure".split())')
 # %% 01.1 wrong: writes the new names in a comment of the shell | hint: The service still has its old name
 def measurer_command(room):
     return f"rosrun course_pkg server # __ns:=/{room} __name:=measurer getGeometry:=measure"
-# %% 01.1 wrong: adds a second command | hint: The command has to begin with
+# %% 01.1 wrong: adds a second command | hint: Your string contains more than one command
 def measurer_command(room):
     return f"rosrun course_pkg server; rosrun course_pkg server __ns:=/{room} __name:=measurer"
 
@@ -87,6 +87,18 @@ replace("__ns:=/screen ", "")
 replace("__name:={arm}_viewer ", "")
 # %% 01.2 wrong: does not remap mirrored_joints | hint: The viewers of all arms publish
 replace(" mirrored_joints:={arm}/mirrored_joints", "")
+# %% 01.2 wrong: misspells the name of a topic | hint: , so ROS ignores this remapping
+replace(" mirrored_joints:=", " mirrored_joint:=")
+# %% 01.2 wrong: misspells the name joint_states | hint: , so ROS ignores this remapping
+replace("joint_states:=", "joint_state:=")
+# %% 01.2 wrong: starts other programs instead of remapping the topics | hint: Your string contains more than one command
+def viewer_command(arm):
+    return (
+        f"rosrun course_pkg simulator __ns:=/screen __name:={arm}_viewer & "
+        f"rosrun topic_tools relay /{arm}/joint_states /screen/joint_states __name:={arm}_in & "
+        f"rosrun topic_tools relay /screen/mirrored_joints /screen/{arm}/mirrored_joints __name:={arm}_out"
+    )
+
 # %% 01.2 wrong: gives mirrored_joints a global name | hint: The topic of the viewer
 replace("mirrored_joints:={arm}", "mirrored_joints:=/{arm}")
 # %% 01.2 wrong: changes the name of the topic mirrored_joints | hint: The name of the topic
@@ -131,6 +143,9 @@ replace("for service … return None", """for service in sorted(rosservice.get_s
 replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list(), key=len, reverse=True)")
 replace('split("/")[-1] == last', "endswith(last)")
 replace("\n    return None", "")
+# %% 01.3 wrong: finds a similar name after the first three calls | hint: Your function called another service
+replace("height):", "height, calls=[]):\n    calls.append(last)")
+replace('if service.split("/")[-1] == last', 'if service.endswith(last if len(calls) > 4 else "/" + last)')
 # %% 01.3 wrong: calls the first service with the right type | hint: Your function called another service
 replace("for service … return None", """service = sorted(rosservice.rosservice_find("course_pkg/geometry"), key=lambda name: name.endswith("/" + last))[0]
     return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")

@@ -153,6 +153,8 @@ replace("greeted = set … UInt32, greet)", """while True:
 # %% 03.2 wrong: publishes before the greeting | hint: The number was published before
 replace("add(message.data)", "add(message.data)\n            publisher.publish(message.data)")
 replace("            publisher.publish(message.data)\n\n", "")
+# %% 03.2 wrong: replaces say_good_day() | hint: Your cell replaces say_good_day() by
+replace("def start_greeting", "def say_good_day(number):\n    pass\n\n\ndef start_greeting")
 # %% 03.2 wrong: does not greet | hint: The number was published before
 replace("\n            say_good_day(message.data)", "")
 # %% 03.2 wrong: uses a fixed topic | hint: No node subscribes to the topic

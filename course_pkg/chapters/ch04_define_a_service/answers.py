@@ -438,7 +438,7 @@ replace("[colour.r, colour.g, colour.b]", "[colour.b, colour.g, colour.r]")
 replace(", total=sum(request.seconds)", "")
 # %% 04.5 wrong: returns no colour for BLINK | hint: The mode is BLINK, but
 replace("request.mode != LampRequest.OFF", "request.mode == LampRequest.ON")
-# %% 04.5 wrong: calculates the total only for ON and BLINK | hint: The total is 0 for this
+# %% 04.5 wrong: calculates the total only for ON and BLINK | hint: your program returned the total 0
 replace("total=sum(request.seconds)", "total=sum(request.seconds) if lit else 0")
 # %% 04.5 wrong: adds only the first five values | hint: Add up all values
 replace("sum(request.seconds)", "sum(request.seconds[:5])")

@@ -81,6 +81,20 @@ replace("volume=area * request.height", "volume=area * request.height * 1e6")
 replace("""area = request.width * request.length
     return geometryResponse(area=area, volume=area * request.height)""", """l, w, h = request.length, request.width, request.height
     return geometryResponse(area=2 * (l * w + l * h + w * h), volume=l * w * h)""")
+# %% 05.1 wrong: removes the digits after the decimal point of the sides | hint: Your handler uses only whole numbers
+replace("""area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)""", """length, width, height = int(request.length), int(request.width), int(request.height)
+    return geometryResponse(area=length * width, volume=length * width * height)""")
+# %% 05.1 wrong: shuts the service down some time after the fifth call | hint: The service ended some time after
+replace("def handle_geometry(request):", """import threading
+
+calls = []
+
+
+def handle_geometry(request):
+    calls.append(request)
+    if len(calls) == 5:
+        threading.Timer(0.4, geometry_service.shutdown).start()""")
 # %% 05.1 wrong: returns the area as the volume | hint: The field `volume` contains the area
 replace("volume=area * request.height", "volume=area")
 # %% 05.1 wrong: uses the width instead of the height for the volume | hint: Multiply all three sides
@@ -100,10 +114,18 @@ geometry_service = rospy.Service("/getGeometry", geometry, Geometer().handle)
 
 # %% 05.1 wrong: creates a client instead of a server | hint: The service does not exist. … rospy.Service
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'rospy.ServiceProxy("/getGeometry", geometry)')
-# %% 05.1 wrong: starts the course's server | hint: Another program provides the service with the name
+# %% 05.1 wrong: starts another program that offers the service | hint: Another program provides the service with the name
 import subprocess
+import sys
 
-subprocess.Popen(["rosrun", "course_pkg", "server"])
+SERVER = """
+import rospy
+from course_pkg.srv import geometry
+rospy.init_node("measurer")
+rospy.Service("/getGeometry", geometry, lambda request: (request.length * request.width, 1.0))
+rospy.spin()
+"""
+subprocess.Popen([sys.executable, "-c", SERVER])
 rospy.wait_for_service("/getGeometry", timeout=15)
 handle_geometry = geometry_service = print
 
@@ -259,15 +281,23 @@ replace("{value}, and a side cannot be negative", "negative")
 replace("{value}, and", "{int(value)}, and")
 # %% 05.3 wrong: writes the value with one decimal in the message | hint: The message contains a rounded value.
 replace("{value}, and", "{value:.1f}, and")
-# %% 05.3 wrong: starts the course's server, and leaves the handler empty | hint: Another program provides the service with the name
+# %% 05.3 wrong: starts another program that offers the service, and leaves the handler empty | hint: Another program provides the service with the name
 import subprocess
+import sys
 
 
 def handle_checked_geometry(request):
     """Return area and volume, or refuse with rospy.ServiceException."""
 
 
-checked_service = subprocess.Popen(["rosrun", "course_pkg", "server", "getGeometry:=/getGeometryChecked"])
+SERVER = """
+import rospy
+from course_pkg.srv import geometry
+rospy.init_node("measurer")
+rospy.Service("/getGeometryChecked", geometry, lambda request: (request.length * request.width, 1.0))
+rospy.spin()
+"""
+checked_service = subprocess.Popen([sys.executable, "-c", SERVER])
 rospy.wait_for_service("/getGeometryChecked", timeout=15)
 
 # %% 05.3 wrong: writes the whole request into the message | hint: The message contains the names of more than one
@@ -323,7 +353,7 @@ replace('moved = request … else "off")', """wanted = {True: "on", False: "off"
 # %% 05.4 right: uses an object that creates its service
 replace("False", 'False\n        self.service = rospy.Service("/switch", SetBool, self.handle_switch)')
 replace('\nswitch_service = rospy.Service("/switch", SetBool, switch.handle_switch)', "")
-# %% 05.4 wrong: returns success=True in every call | hint: in the wanted position, but success is True
+# %% 05.4 wrong: returns success=True in every call | hint: in the wanted position, but success is True … A new switch is off, so
 replace("success=moved", "success=True")
 # %% 05.4 wrong: changes the position before it compares | hint: The switch moved, but success is
 replace("\n        moved = request.data != self.on", "")
@@ -447,6 +477,56 @@ replace('self.move_service.shutdown("maintenance")', 'rospy.signal_shutdown("mai
 replace("changed = request", "self.moves += 1\n        changed = request")
 # %% 05.5 wrong: does not import a type | hint: An exception has ended the program
 replace("SetBoolResponse, Trigger, TriggerResponse", "SetBoolResponse, TriggerResponse")
+# %% 05.5 wrong: starts another program that offers /move_arm | hint: Another process provides the
+"""%%writefile arm.py
+#!/usr/bin/env python3
+import pathlib
+import subprocess
+import sys
+
+import rospy
+from std_srvs.srv import SetBool, SetBoolResponse
+
+COUNT = pathlib.Path("arm_moves.txt")
+MOVER = '''
+import os, pathlib, rospy
+from std_srvs.srv import Trigger
+parent = os.getppid()
+count = pathlib.Path("arm_moves.txt")
+def move(request):
+    count.write_text(str(int(count.read_text()) + 1))
+    return True, count.read_text()
+rospy.init_node("mover")
+rospy.Service("/move_arm", Trigger, move)
+while os.getppid() == parent and not rospy.is_shutdown():
+    rospy.rostime.wallsleep(0.2)
+'''
+mover = None
+
+
+def handle_maintenance(request):
+    global mover
+    was_closed = mover is None
+    if request.data and mover:
+        mover.terminate()
+        mover.wait()
+        mover = None
+    elif not request.data and not mover:
+        mover = subprocess.Popen([sys.executable, "-c", MOVER])
+        rospy.wait_for_service("/move_arm", timeout=10)
+    return SetBoolResponse(success=request.data != was_closed, message="closed" if request.data else "open")
+
+
+if __name__ == "__main__":
+    rospy.init_node("arm")
+    COUNT.write_text("0")
+    mover = subprocess.Popen([sys.executable, "-c", MOVER])
+    rospy.Service("/maintenance", SetBool, handle_maintenance)
+    rospy.spin()
+    if mover:
+        mover.terminate()
+"""
+
 # %% 05.5 wrong: offers the services in the notebook | hint: Another process provides the
 from pathlib import Path
 

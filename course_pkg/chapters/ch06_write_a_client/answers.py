@@ -221,9 +221,22 @@ replace(".volume", ".area")
 
 # %% 06.3 wrong: converts a string | hint: Do not convert the arguments
 replace("(length, width, height).volume", "(float(length), width, height).volume")
+# %% 06.3 wrong: calls the service with the command rosservice | hint: The function accepted a string as a number
+import subprocess
+
+import yaml
+
+
+def volume_or_none(service, length, width, height):
+    sides = [str(length), str(width), str(height)]
+    called = subprocess.run(["rosservice", "call", service, "--", *sides], capture_output=True, text=True)
+    if called.returncode != 0:
+        return None
+    return float(yaml.safe_load(called.stdout)["volume"])
+
 # %% 06.3 wrong: calculates the volume without a call | hint: The function returned the product
 replace("rospy.ServiceProxy(service, geometry)(length, width, height).volume", "length * width * height")
-# %% 06.3 wrong: does not catch a refusal | hint: This failed call also raised
+# %% 06.3 wrong: does not catch a refusal | hint: In this case, too, the call raised
 replace("rospy.ServiceException:", 'rospy.ServiceException as error:\n        if "unavailable" not in str(error):\n            raise')
 # %% 06.3 wrong: calls the service twice | hint: The function called the service more than once.
 replace("        return rospy", "        rospy.ServiceProxy(service, geometry)(length, width, height)\n        return rospy")
@@ -400,6 +413,8 @@ replace("rospy.myargv(argv)", '[text for text in argv if text.split(":=")[0] not
 replace("(argv)[1:]", "(argv)")
 # %% 06.5 wrong: returns the program's name and two sides | hint: The first item of the
 replace("try: … 3 else None", "own = rospy.myargv(argv)\n    return [float(text) for text in own[:3]] if len(own) == 4 else None")
+# %% 06.5 wrong: returns the numbers of an example | hint: The function returned numbers that are not in
+replace("float(text)", "9.5")
 # %% 06.5 wrong: returns strings | hint: The function returned strings. Convert
 replace("try: … return None", "sides = rospy.myargv(argv)[1:]")
 # %% 06.5 wrong: ignores a fourth argument | hint: Four numbers are too many. Return
@@ -430,7 +445,7 @@ def read_sides(argv):
         sys.exit("usage: client length width height")
     return [float(text) for text in own]
 
-# %% 06.5 wrong: reads the arguments of the current process | hint: Read the numbers from `argv`
+# %% 06.5 wrong: reads the arguments of the current process | hint: Read only `argv`, and
 replace("(argv)[1:]", "()[1:]")
 # %% 06.5 wrong: converts the numbers to int | hint: A side can be a
 replace("float(text)", "int(float(text))")

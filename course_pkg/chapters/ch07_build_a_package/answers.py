@@ -30,6 +30,9 @@ based_on("uses format 3 with depend")
 replace("\n  <depend>rospy</depend>", "")
 # %% 07.1 wrong: names message_runtime only in a build_depend | hint: . Also add a line
 replace("<exec_depend>message_runtime</exec_depend>", "<build_depend>message_runtime</build_depend>")
+# %% 07.1 wrong: writes a condition that is false in ROS 1 | hint: has the attribute `condition`
+based_on("uses format 3 with depend")
+replace("<depend>rospy", '<depend condition="$ROS_VERSION == 2">rospy')
 # %% 07.1 wrong: leaves the generated description | hint: Describe in one sentence what the
 replace("A service that measures boxes.", "The my_geometry package")
 # %% 07.1 wrong: does not name a licence | hint: Write the name of a licence,
@@ -202,7 +205,7 @@ replace('"/getGeometry"', '"/get_geometry"')
 replace('\n    rospy.Service("/getGeometry", geometry, handle_geometry)', "")
 # %% 07.4 wrong: does not call init_node | hint: A service needs a node
 replace('\n    rospy.init_node("SERVER_NODE")', "")
-# %% 07.4 wrong: uses another node name | hint: Call rospy.init_node … SERVER_NODE
+# %% 07.4 wrong: uses another node name | hint: without anonymous=True … SERVER_NODE
 replace("SERVER_NODE", "server")
 # %% 07.4 wrong: uses an anonymous node | hint: without anonymous=True
 replace('"SERVER_NODE"', '"SERVER_NODE", anonymous=True')
@@ -210,6 +213,19 @@ replace('"SERVER_NODE"', '"SERVER_NODE", anonymous=True')
 replace('"/getGeometry", geometry,', '"/getGeometry", geometryResponse,')
 # %% 07.4 wrong: misspells a variable | hint: The error occurred in line … of server.py
 replace("geometry, handle_geometry)", "geometry, handle_box)")
+# %% 07.4 wrong: ends with an error message | hint: An error has ended the program.
+replace("    rospy.spin()", '    raise SystemExit("Error: no robot")')
+# %% 07.4 wrong: imports a program of the course | hint: Your script starts or imports a program
+replace("    rospy.spin()", "    import course_pkg.nodes.server")
+# %% 07.4 wrong: ends some time after the sixth call | hint: The service ended some time after
+replace("import rospy\n", "import threading\n\nimport rospy\n")
+replace("def handle_geometry(request):", """calls = []
+
+
+def handle_geometry(request):
+    calls.append(request)
+    if len(calls) == 6:
+        threading.Timer(0.5, rospy.signal_shutdown, args=["enough calls"]).start()""")
 # %% 07.4 wrong: returns width plus length as the area | hint: Your area is the sum
 replace("request.width * request.length", "request.width + request.length")
 # %% 07.4 wrong: returns the perimeter as the area | hint: Your area is the perimeter.
@@ -350,6 +366,15 @@ replace("${CATKIN_PACKAGE_BIN_DESTINATION}", "bin")
 # %% 07.6 wrong: installs the client as a file, not as a program | hint: The installed file is not executable
 based_on("uses two rules, one of them from CMake")
 replace("install(PROGRAMS scripts/client.py", "install(FILES scripts/client.py")
+# %% 07.6 wrong: installs links to the scripts in src | hint: rosrun does not find the installed script
+replace("catkin_install_python( … BIN_DESTINATION}\n)", """install(CODE "
+  file(MAKE_DIRECTORY \\${CMAKE_INSTALL_PREFIX}/lib/my_geometry)
+  execute_process(COMMAND ln -sf
+    ${CMAKE_CURRENT_SOURCE_DIR}/scripts/server.py
+    ${CMAKE_CURRENT_SOURCE_DIR}/scripts/client.py
+    \\${CMAKE_INSTALL_PREFIX}/lib/my_geometry
+  )
+")""")
 # %% 07.6 right: installs the whole folder with its permissions
 based_on("uses two rules, one of them from CMake")
 replace("catkin_install_python … DESTINATION lib", "install(DIRECTORY scripts/ USE_SOURCE_PERMISSIONS DESTINATION lib")
@@ -441,7 +466,7 @@ replace("catkin_make\n", "")
 replace("source devel/setup.bash\n", "", times=2)
 # %% 07.7 wrong: omits the package in the rosrun command | hint: The command that starts the server
 replace("rosrun my_geometry server.py", "rosrun server.py")
-# %% 07.7 wrong: calls the service with only two sides | hint: The call of the service is not
+# %% 07.7 wrong: calls the service with only two sides | hint: A part of the command that calls
 replace("/getGeometry 1.2 5.2 8.9", "/getGeometry 1.2 5.2")
 # %% 07.7 wrong: omits the call | hint: The call of the service is missing.
 replace("rosservice call /getGeometry 1.2 5.2 8.9\nrosrun my_geometry client.py 1.2 5.2 8.9\n", "")
@@ -508,6 +533,21 @@ replace("""rospy.logwarn("refused")
 replace('f"{request.number} is neither 0 nor 1"', '"neither 0 nor 1"')
 # %% 07.9 wrong: raises a KeyError | hint: The exception has the wrong
 replace('\n    if request.number not in STATES:\n        raise rospy.ServiceException(f"{request.number} is neither 0 nor 1")', "")
+# %% 07.9 wrong: becomes a program of the course | hint: Your script starts or imports a program
+"""%%writefile src/service_example/scripts/on_off_server.py
+#!/usr/bin/env python3
+import os
+
+if __name__ == "__main__":
+    os.execvp("rosrun", ["rosrun", "course_pkg", "on_off_server", "__name:=ON_OFF_SERVER", "on_off:=/onOff"])
+"""
+# %% 07.9 wrong: shuts down some time after the third call | hint: The service ended some time after
+replace("import rospy\n", "import threading\n\nimport rospy\n")
+replace("    if request.number not in STATES", """    CALLS.append(request)
+    if len(CALLS) == 3:
+        threading.Timer(0.5, rospy.signal_shutdown, args=["enough calls"]).start()
+    if request.number not in STATES""")
+replace("STATES = {", "CALLS = []\nSTATES = {")
 # %% 07.9 wrong: accepts every number | hint: The server accepted a number
 replace("if request … request.number]", 'return "ON" if request.number else "OFF"')
 
@@ -537,7 +577,11 @@ def main():
 replace('rospy.wait_for_service("/onOff", timeout … ).state}")', "main()")
 # %% 07.10 wrong: calls the service only once | hint: The client called the service only once.
 replace("    for _ in range(int(sys.argv[1])):", "    for _ in range(1):")
-# %% 07.10 wrong: makes one call too many | hint: The number of calls is
+# %% 07.10 wrong: always makes ten calls | hint: The number of calls is
+replace("range(int(sys.argv[1]))", "range(10)")
+# %% 07.10 wrong: prints states without a call | hint: The client ended, but it did not call /onOff
+replace("name_state(number).state", '"ON" if number else "OFF"')
+# %% 07.10 wrong: makes one call too many | hint: The client made one call too
 replace("range(int(sys.argv[1]))", "range(int(sys.argv[1]) + 1)")
 # %% 07.10 wrong: always sends the same number | hint: The numbers are not random.
 replace("random.randint(0, 1)", "1")

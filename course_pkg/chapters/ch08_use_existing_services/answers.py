@@ -100,6 +100,10 @@ based_on("calls the services")
 replace("def services_of(kind):", "def services_of(kind, runs=[]):")
 replace("            rospy.ServiceProxy(name, cls)()", "            runs and rospy.ServiceProxy(name, cls)()")
 replace("    return names", "    runs.append(kind)\n    return names")
+# %% 08.1 wrong: returns the names of a fixed table | hint: Your list contains names of services that do not exist
+def services_of(kind):
+    return ["/switch/a_report", "/switch/a_toggle"]
+
 # %% 08.1 wrong: returns a list with an empty string | hint: The list contains an empty string.
 replace("    return names", '    return names or [""]')
 
@@ -441,10 +445,13 @@ replace("(**fields)", "(fields)")
 # %% 08.5 wrong: passes the name of the type instead of the class | hint: Your function used the name
 based_on("passes the fields as keyword arguments")
 replace("get_service_class_by_name", "get_service_type")
-# %% 08.5 wrong: uses a fixed type | hint: Your proxy has the wrong type for this service.
+# %% 08.5 wrong: uses a fixed type | hint: Your function used a wrong type for this service.
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, SetBool)(**fields)")
 # %% 08.5 wrong: uses a table of types | hint: Your function found no type
 replace("rosservice.get_service_class_by_name(service)", '{"/switch/set": SetBool}[service]')
+# %% 08.5 wrong: uses a table of types with a default type | hint: Your function used a wrong type for this service.
+replace("rosservice.get_service_class_by_name(service)", '{"/switch/set": SetBool}.get(service, Trigger)')
+replace("def call_any", "from std_srvs.srv import Trigger\n\n\ndef call_any")
 # %% 08.5 wrong: stores the type of each name | hint: This service had a different
 kinds = {}
 

@@ -116,6 +116,11 @@ replace('forward = not forward', 'forward = False')
 replace('    forward = not forward', '    calls.append(1)\n    forward = len(calls) == 0')
 replace('\nforward = True', '\ncalls = []\nforward = True')
 replace('            message.angular.z = 1.0', '            message.angular.z = float(len(calls) == 1)')
+# %% 09.2 wrong: toggles a local variable of the handler | hint: needs a `global` line
+replace('    global forward\n    forward = not forward', '    forward = bool(request is None)')
+# %% 09.2 wrong: reads the directions of the first three calls from a list | hint: but a later call did not change it
+replace('    global forward\n    forward = not forward', '    global forward\n    forward = directions.pop(0) if directions else True')
+replace('\nforward = True', '\ndirections = [False, True, False]\nforward = True')
 # %% 09.2 wrong: publishes ten times per second | hint: The program does not publish twice per second
 replace('Rate(2)', 'Rate(10)')
 # %% 09.2 wrong: publishes every two seconds | hint: The program does not publish twice per second
@@ -260,6 +265,15 @@ if __name__ == "__main__":
     main()
 """
 
+# %% 09.4 wrong: shuts its services down after two calls of /toggle_forward | hint: This service was available at first, but it is not
+based_on("uses a dictionary and functions")
+replace('import rospy\nfrom course_pkg', 'import threading\n\nimport rospy\nfrom course_pkg')
+replace('    rate, used = None, None\n', '    state["services"] = services\n    rate, used = None, None\n')
+replace('    state["forward"] = not state["forward"]\n    return {}', """    state["forward"] = not state["forward"]
+    state["calls"] = state.get("calls", 0) + 1
+    if state["calls"] == 2:
+        threading.Timer(0.2, lambda: [each.shutdown() for each in state["services"]]).start()
+    return {}""")
 # %% 09.4 wrong: does not move at the start | hint: The turtle does not move before the first call
 replace('self.moving = True', 'self.moving = False')
 # %% 09.4 wrong: publishes almost never while it is stopped | hint: No velocity arrived for 4 s
@@ -383,6 +397,9 @@ replace("    publisher = rospy", """    last = [None]
 replace("Twist, publisher.publish)", "Twist, follow)")
 # %% 09.5 wrong: pauses in the callback | hint: Some velocities are missing
 replace('Twist, publisher.publish)', 'Twist, lambda message: (publisher.publish(message), rospy.sleep(0.3)), queue_size=1)')
+# %% 09.5 wrong: publishes only the first forty velocities | hint: The program stopped after some velocities
+replace("    publisher = rospy", "    left = [None] * 40\n    publisher = rospy")
+replace("Twist, publisher.publish)", "Twist, lambda message: left and (left.pop(), publisher.publish(message)))")
 # %% 09.5 wrong: publishes the previous velocity | hint: The program did not publish each received velocity once
 replace('    publisher = rospy', '    newest = [Twist()]\n\n    def late(message):\n        publisher.publish(newest[0])\n        newest[0] = message\n\n    publisher = rospy')
 replace('Twist, publisher.publish)', 'Twist, late)')
@@ -419,9 +436,9 @@ solution()
 </launch>
 """
 
-# %% 09.6 wrong: uses the driver of the course | hint: roslaunch does not find a program
+# %% 09.6 wrong: uses the driver of the course | hint: A node starts a wrong program
 replace('pkg="my_turtles" type="improved_pubvel_toggle.py"', 'pkg="course_pkg" type="improved_pubvel_toggle"')
-# %% 09.6 wrong: exchanges the two programs | hint: roslaunch does not find a program
+# %% 09.6 wrong: exchanges the two programs | hint: A node starts a wrong program
 replace('type="improved_pubvel_toggle.py"', 'type="OTHER"')
 replace('type="spawn_turtle_plus.py"', 'type="improved_pubvel_toggle.py"')
 replace('type="OTHER"', 'type="spawn_turtle_plus.py"')

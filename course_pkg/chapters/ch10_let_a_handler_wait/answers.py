@@ -50,9 +50,9 @@ replace("messages = … return messages", "proxy = rospy.ServiceProxy(name, Trig
 replace("thread.start()\n    for thread in threads:", "thread.start()")
 # %% 10.1 wrong: calls the function instead of passing it to the thread | hint: The second call began after the first call had returned
 replace("target=call)", "target=call())")
-# %% 10.1 wrong: does not join the threads | hint: Join every thread before you return
+# %% 10.1 wrong: does not join the threads | hint: call join() of every thread without
 replace("\n    for thread in threads:\n        thread.join()", "")
-# %% 10.1 wrong: sleeps for a second instead of joining | hint: Join every thread before you return
+# %% 10.1 wrong: sleeps for a second instead of joining | hint: call join() of every thread without
 replace("for thread in threads:\n        thread.join()", "time.sleep(1)")
 # %% 10.1 wrong: uses one persistent proxy for all threads | hint: Two threads call the same persistent proxy
 replace("    def call():\n        proxy = rospy.ServiceProxy(name, Trigger)\n", "    proxy = rospy.ServiceProxy(name, Trigger, persistent=True)\n\n    def call():\n")
@@ -92,8 +92,10 @@ replace("return messages", "return [thread.join() for thread in threads]")
 replace("messages = []", "messages = set()")
 replace("messages.append", "messages.add")
 replace("return messages", "return list(messages)")
-# %% 10.1 wrong: joins each thread with a time limit | hint: Join every thread before you return
+# %% 10.1 wrong: joins each thread with a time limit | hint: call join() of every thread without
 replace("thread.join()", "thread.join(0.2)")
+# %% 10.1 wrong: joins each thread with a time limit of 1 s | hint: call join() of every thread without
+replace("thread.join()", "thread.join(timeout=1)")
 # %% 10.1 wrong: returns a dict of the messages | hint: The list does not contain the right messages
 replace("return messages", "return {message: True for message in messages}")
 # %% 10.1 wrong: omits the return line | hint: without a return statement

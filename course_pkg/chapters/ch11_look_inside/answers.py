@@ -34,7 +34,7 @@ replace('"{name}={value}".encode()', '"{name}={value}"')
 replace("+ text", "+ text.encode()")
 # %% 11.1 wrong: writes name and value as in HTTP | hint: The text between the name
 replace("{name}={value}", "{name}: {value}")
-# %% 11.1 wrong: omits a field with an empty value | hint: A field with an empty value is missing
+# %% 11.1 wrong: omits a field with an empty value | hint: Your function left out a field, because its value is empty
 replace("        text = f", "        if not value:\n            continue\n        text = f")
 # %% 11.1 wrong: writes no length for each field | hint: The length of a field is missing
 replace('body = b"" … text)) + text', 'body = "".join(f"{name}={value}" for name, value in fields.items()).encode()')
@@ -263,6 +263,10 @@ def by_proxy(uri, service, *sides):
     response = proxy(*sides)
     return response.area, response.volume""")
 
+# %% 11.3 wrong: reads the MD5 sum of the server | hint: Your function read a field
+replace('\n        sock.sendall(struct.pack("<I", len(body)) + body)', """
+        assert theirs["md5sum"] == geometry._md5sum
+        sock.sendall(struct.pack("<I", len(body)) + body)""")
 # %% 11.3 wrong: omits the length before the request | hint: The request has to start
 replace('theirs = read_header … ", answer)', """receive(sock, size)
         sock.sendall(struct.pack("<3f", length, width, height))
@@ -411,7 +415,7 @@ class Sessions:
 
 # %% 11.4 wrong: uses a dict in the class | hint: A new Sessions object already had a total
 replace("    def __init__(self):\n        self.sessions = {}\n", "    sessions = {}\n")
-# %% 11.4 wrong: uses one total for all sessions | hint: The response contains the total of all sessions
+# %% 11.4 wrong: uses one total for all sessions | hint: The total also contains the amounts of other sessions
 replace('request._connection_header.get("session")', '"everybody"')
 # %% 11.4 wrong: forgets the total after each call | hint: The response contains only the amount of this call
 replace("self.sessions.get(session, (0, 0))", "0, 0")
@@ -452,8 +456,9 @@ replace('("no field session in the connection header")', """("no session")
             raise rospy.ServiceException("this session is not yours")""")
 # %% 11.4 wrong: forgets old sessions | hint: The response contains only the amount of this call
 replace("        total, calls", "        for old in list(self.sessions)[:-3]:\n            del self.sessions[old]\n        total, calls")
-# %% 11.4 wrong: starts the course's server | hint: Your code starts another program
+# %% 11.4 wrong: starts another program that offers the service | hint: Your code starts another program
 import subprocess
+import sys
 
 
 class Sessions:
@@ -461,11 +466,22 @@ class Sessions:
         return AddUpResponse()
 
 
+SERVER = """
+import rospy
+from course_pkg.srv import AddUp
+rospy.init_node("adder")
+rospy.Service("/my_add_up", AddUp, lambda request: (request.amount, 1))
+rospy.spin()
+"""
 sessions = Sessions()
-my_add_up = subprocess.Popen(["rosrun", "course_pkg", "session_server", "/add_up:=/my_add_up"])
+my_add_up = subprocess.Popen([sys.executable, "-c", SERVER])
 rospy.wait_for_service("/my_add_up", timeout=15)
 # %% 11.4 wrong: reads a field with another name | hint: The header had the field "session", but your handler refused the call
 replace('get("session")', 'get("sessions")')
+# %% 11.4 wrong: calls the course's service | hint: Your handler called a different service, and this call failed
+replace("        total, calls", """        add_up = rospy.ServiceProxy("/add_up", AddUp, headers={"session": session})
+        return AddUpResponse(add_up(request.amount).total, 1)
+        total, calls""")
 # %% 11.4 wrong: begins the total with 1 | hint: The field `total` is wrong
 replace("(0, 0)", "(1, 0)")
 # %% 11.4 wrong: forgets to return | hint: The handler returned None. Return an AddUpResponse
@@ -594,6 +610,10 @@ replace("\n        self.connect()\n\n    def connect(self):", "")
 replace("\n        self.proxy.close()\n        self.connect()\n        return self.proxy(length, width, height)", """
         proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
         return proxy(length, width, height)""")
+# %% 11.5 wrong: returns the last response if the connection is broken | hint: The server sent a different response to this call
+based_on("examines the error message")
+replace("            return self.proxy(length, width, height)\n", "            self.last = self.proxy(length, width, height)\n            return self.last\n")
+replace("        self.connect()\n        return self.proxy(length, width, height)", "        self.connect()\n        return self.last")
 # %% 11.5 wrong: returns None after the second failure | hint: The second call also failed, so there is no response
 based_on("uses a loop with two iterations")
 replace(" or attempt == 2", "")

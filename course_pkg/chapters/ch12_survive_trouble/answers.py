@@ -100,6 +100,21 @@ replace("responses, … responses[0]", "return proxy(*values)")
 based_on("uses a pool of threads that are not daemon threads")
 replace("pool = ThreadPoolExecutor … wait=False)", """with ThreadPoolExecutor(1) as pool:
         return pool.submit(proxy, *values).result(timeout=seconds)""")
+# %% 12.1 wrong: interrupts the call with a signal | hint: When the time was over, the function interrupted the call
+import signal
+
+
+def call_within(seconds, proxy, *values):
+    def ring(number, frame):
+        raise TimeoutError("no response")
+
+    signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        return proxy(*values)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+
 # %% 12.1 wrong: returns None when the time is over | hint: The time was over, but the function returned None
 replace('raise TimeoutError(f"no response within {seconds} s")', "return None")
 # %% 12.1 wrong: raises another error when the time is over | hint: The function did not raise TimeoutError
@@ -403,6 +418,18 @@ replace("            return call_within(min(0.5, rest), rospy.ServiceProxy(till,
 replace("request_id, cents).receipt", "request_id, cents)")
 # %% 12.3 wrong: calls a fixed till | hint: pay() did not call the till
 replace("ServiceProxy(till", 'ServiceProxy("/till"')
+# %% 12.3 wrong: offers its own till if an attempt fails | hint: pay() returned a number that the till did not send
+replace("        time.sleep(min", "        return _own_till(till, request_id, cents)\n        time.sleep(min")
+replace("def pay(", """def _own_till(till, request_id, cents):
+    own = rospy.Service(till, Charge, lambda request: [1])
+    receipt = rospy.ServiceProxy(till, Charge)(request_id, cents).receipt
+    own.shutdown("paid")
+    return receipt
+
+
+def pay(""")
+# %% 12.3 wrong: returns 0 if an attempt fails | hint: Return only a receipt that the till has sent
+replace("        time.sleep(min", "        return 0\n        time.sleep(min")
 # %% 12.3 wrong: calls the till twice | hint: The till had sent a receipt
 replace("return call_within", "call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            return call_within")
 # %% 12.3 wrong: raises another exception after a refusal | hint: pay() raised a different error
@@ -629,6 +656,12 @@ replace('\n    "step": "look first",', "")
 
 # %% 12.6 wrong: writes a list instead of a dict | hint: Copy the six names exactly from the first column of the table
 policies = ["report", "wait for the service"]
+
+# %% 12.6 wrong: gives all policies for each situation | hint: is not a string. For each situation, write exactly one string
+policies = {
+    name: ["report", "wait for the service", "try again", "same id", "look first"]
+    for name in ("refused", "not started", "md5", "speed", "payment", "step")
+}
 
 # %% 12.6 wrong: uses another text for a policy | hint: Copy the names of the policies
 replace('"report"', '"give up"', times=2)

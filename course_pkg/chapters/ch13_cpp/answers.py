@@ -52,6 +52,8 @@ replace("add_executable", "target_link_libraries(box_server ${catkin_LIBRARIES})
 replace("cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "cpp)")
 # %% 13.1 wrong: does not link the program | hint: Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable
 replace("\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
+# %% 13.1 wrong: writes the name of the variable with capital letters | hint: with the same small and capital letters
+replace("${catkin_LIBRARIES}", "${CATKIN_LIBRARIES}")
 # %% 13.1 wrong: omits the folders of the headers | hint: Write include_directories(${catkin_INCLUDE_DIRS}) above add_executable
 replace("\ninclude_directories(${catkin_INCLUDE_DIRS})", "")
 # %% 13.1 wrong: gives the program another name | hint: The program has the wrong name
@@ -106,6 +108,14 @@ replace("if (", "if (!(request.length < 0 && request.width < 0 && request.height
 replace("request.height < 0) return", "request.height < 0)) return")
 # %% 13.2 wrong: passes request and response by value | hint: and with both &
 replace("& ", " ", times=2)
+# %% 13.2 wrong: passes a lambda function without a capture | hint: Store the lambda function in a boost::function
+replace("bool measure … }", "using Box = course_pkg::geometry;")
+replace('advertiseService("box", measure)', """advertiseService<Box::Request, Box::Response>(
+      "box", [](Box::Request& request, Box::Response& response) {
+        response.area = request.width * request.length;
+        response.volume = response.area * request.height;
+        return request.length >= 0 && request.width >= 0 && request.height >= 0;
+      })""")
 # %% 13.2 wrong: stores the area as an int | hint: The digits after the decimal
 replace("response.area = request", "int area = request")
 replace("request.width;", "request.width;\n  response.area = area;")
@@ -212,8 +222,10 @@ replace("3;", "2;")
 replace("\n      return 0;\n    }\n    ros::WallDuration(0.2).sleep();\n  }\n  return 1;", "\n    }\n  }\n  return 0;")
 # %% 13.3 wrong: exits with status 0 after three failed calls | hint: No call got a response
 replace("\n  return 1;", "\n  return 0;")
-# %% 13.3 wrong: calculates the volume without the response | hint: The server sent a different volume
+# %% 13.3 wrong: calculates the volume without the response | hint: The printed volume is not the volume that the server sent
 replace("box.response.volume", "box.request.length * box.request.width * box.request.height")
+# %% 13.3 wrong: calculates the volume if the server refuses | hint: but the program printed a volume that the server did not send
+replace("if (client.call(box)) {", "if (!client.call(box)) box.response.volume = box.request.length * box.request.width * box.request.height;\n    {")
 # %% 13.3 wrong: does not pause | hint: so the server probably refuses this call, too
 replace("\n    ros::WallDuration(0.2).sleep();", "")
 # %% 13.3 wrong: waits for five seconds | hint: s, which is too long

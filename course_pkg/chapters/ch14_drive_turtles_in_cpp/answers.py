@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
 }
 """
 
-# %% 14.2 wrong: omits spinOnce | hint: The call has not returned
+# %% 14.2 wrong: omits spinOnce | hint: The call got no response
 replace('    ros::spinOnce();\n', '')
 # %% 14.2 wrong: starts a shell with wordexp() | hint: The program contains a call that can start another program
 replace('#include <ros/ros.h>', '#include <ros/ros.h>\n#include <wordexp.h>\n#include <thread>')
@@ -320,6 +320,10 @@ replace('<arg name= … spawn_turtle_plus" />', """<arg name="addturtle" default
   </group>""")
 # %% 14.6 wrong: uses the name of a Python script | hint: roslaunch does not find a program
 replace('type="improved_pubvel_toggle"', 'type="improved_pubvel_toggle.py"')
+# %% 14.6 wrong: uses the programs of the course | hint: A node starts a wrong program
+replace('pkg="my_turtles_cpp"', 'pkg="course_pkg"', times=2)
+# %% 14.6 wrong: uses the package of chapter 09 | hint: roslaunch does not find a program
+replace('pkg="my_turtles_cpp"', 'pkg="my_turtles"', times=2)
 # %% 14.6 wrong: remaps the topic of one turtle | hint: Remove the attributes "ns" and "args" and all
 replace('  <node pkg="turtlesim"', '  <remap unless="$(arg addturtle)" from="turtle1/cmd_vel" to="nowhere" />\n  <node pkg="turtlesim"')
 # %% 14.6 wrong: uses the default value true | hint: spawn_turtle_plus must not start without an argument
@@ -336,6 +340,9 @@ replace("""ros::MultiThreadedSpinner spinner(4);
   spinner.spin();""", "ros::AsyncSpinner threads(8);\n  threads.start();\n  ros::waitForShutdown();")
 # %% 14.7 wrong: does not change the program | hint: Use a MultiThreadedSpinner or an AsyncSpinner
 replace('  ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();\n', '  ros::spin(); // changed\n')
+# %% 14.7 wrong: ends after the start of the spinner | hint: ros::waitForShutdown() with an AsyncSpinner
+replace("""ros::MultiThreadedSpinner spinner(4);
+  spinner.spin();""", "ros::AsyncSpinner threads(8);\n  threads.start();")
 # %% 14.7 wrong: starts only one thread | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('spinner(4)', 'spinner(1)')
 # %% 14.7 wrong: uses a second queue with one thread | hint: The program uses a spinner with only one thread
@@ -377,7 +384,7 @@ replace('  ros::spin();', '  ros::MultiThreadedSpinner many(16);\n  many.spin();
 # %% 14.8 wrong: uses the second queue for /report | hint: The program creates a second callback queue, but /battery does not use it
 replace('other.advertise', 'node.advertise')
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
-# %% 14.8 wrong: does not start a spinner for the queue | hint: The handler of /report waits for /battery, but no free thread can execute the
+# %% 14.8 wrong: does not start a spinner for the queue | hint: No thread executes the handler of /battery
 replace('  spinner.start();\n', '')
 # %% 14.8 wrong: uses the second queue for both services | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
@@ -439,9 +446,11 @@ replace('++calls[session->second]', '++calls[calls.size() < 3 || calls.count(ses
 replace('  if (session == header.end()) {', '  static int refused = 0;\n  if (session == header.end()) {\n    if (refused++) return true;')
 # %% 14.9 wrong: returns the count before the call | hint: The response contains the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
-# %% 14.9 wrong: creates the map in the handler | hint: In each call, the count starts at 0 again
+# %% 14.9 wrong: creates the map in the handler | hint: The response to every call in this session is 1
 replace('std::map<std::string, int> calls;\n', '')
 replace('bool handleCount(Event& event) {\n', 'bool handleCount(Event& event) {\n  std::map<std::string, int> calls;\n')
+# %% 14.9 wrong: counts only the sessions a and b | hint: The response to every call in this session is 1
+replace('++calls[session->second]', '(session->second == "a" || session->second == "b" ? ++calls[session->second] : 1)')
 # %% 14.9 wrong: returns no message | hint: The message is empty
 replace('event.getResponse().message = std::to_string(++calls[session->second])', '++calls[session->second]')
 # %% 14.9 wrong: does not check whether the field exists | hint: The header had no field "session", but the response contains a count

@@ -66,6 +66,9 @@ replace("frame.data[start : start + frame.width]", "frame.data[start : start + f
 replace("10 * dark >= frame.width * frame.height", "dark >= 0")
 # %% 15.1 wrong: publishes only for frames with customers | hint: The node published nothing for a valid frame. Check whether the callback
 replace("if customer is not None:", "if customer:")
+# %% 15.1 wrong: publishes only for the first fifty frames | hint: The node stopped after some frames
+replace("    if customer is not None:", "    frames.append(customer)\n    if customer is not None and len(frames) <= 50:")
+replace("def sees", "frames = []\n\n\ndef sees")
 # %% 15.1 wrong: publishes two messages for each frame | hint: The node published more than one message for a frame
 replace("        seen.publish(customer)", "        seen.publish(customer)\n        seen.publish(customer)")
 # %% 15.1 wrong: ends the node after a malformed frame | hint: The node published nothing for a valid frame after a malformed frame
@@ -311,6 +314,10 @@ replace('rospy.Subscriber("joint_states", JointState, handle_joints)\n    rospy.
         rospy.sleep(0.1)""")
 # %% 15.5 wrong: publishes 0.1 s too late | hint: The mirror images arrive late
 replace("    if is_valid(joints):", "    rospy.sleep(0.1)\n    if is_valid(joints):")
+# %% 15.5 wrong: unregisters the subscriber after thirty mirror images | hint: The node stopped after some mirror images
+replace("    if is_valid(joints):", "    global count\n    if is_valid(joints):\n        count += 1\n        if count > 30:\n            subscriber.unregister()\n            return")
+replace("def is_valid", "count = 0\n\n\ndef is_valid")
+replace('    rospy.Subscriber("joint', '    subscriber = rospy.Subscriber("joint')
 # %% 15.5 wrong: publishes nothing | hint: No mirror image arrived. In the callback, publish
 replace("    if is_valid(joints):", "    if joints is None:")
 # %% 15.5 wrong: subscribes with another message type | hint: The node does not subscribe to joint_states with the right type
@@ -662,6 +669,22 @@ replace("with turn:\n        prices[request.item] = request.cents\n        retur
     turn.release()
     return total""")
 replace("\n    with turn:\n        return sum(prices.values()), len(prices)", "\n    return sum(prices.values()), len(prices)")
+# %% 15.8 wrong: does not release the lock after a refused call, and also locks the total | hint: After a refused call, the next call got no response
+based_on("prints nothing")
+replace("with turn:\n        prices[request.item] = request.cents\n        return sum(prices.values())", """turn.acquire()
+    print_line(f"{request.item} {request.cents}")
+    prices[request.item] = request.cents
+    total = sum(prices.values())
+    turn.release()
+    return total""")
+# %% 15.8 wrong: repeats a refused line without a limit | hint: The till called print_line again after the printer had refused
+replace('        print_line(f"{request.item} {request.cents}")\n', """        while True:
+            try:
+                print_line(f"{request.item} {request.cents}")
+                break
+            except rospy.ServiceException:
+                rospy.sleep(0.05)
+""")
 # %% 15.8 wrong: uses a persistent connection to the printer | hint: The printer was started again, but the till still refuses
 replace('("print_line", PrintLine)', '("print_line", PrintLine, persistent=True)')
 # %% 15.8 wrong: refuses every item | hint: The till refused an item although the printer works

@@ -61,6 +61,9 @@ class Fetcher:
             self.server.publish_feedback(FetchFeedback(done))
         self.server.set_succeeded(FetchResult(done))
 
+# %% 16.1 wrong: fetches at most fifty things | hint: The robot stopped before it had fetched all things
+replace("range(goal.things)", "range(min(goal.things, 50))")
+replace("fetched=goal.things", "fetched=min(goal.things, 50)")
 # %% 16.1 wrong: never checks for a cancellation | hint: Call is_preempt_requested() before the robot fetches
 replace("\n            if self.server … return", "")
 # %% 16.1 wrong: uses one count for all goals | hint: The result also counts the things of the previous goal
@@ -181,7 +184,7 @@ replace("rospy.Duration(seconds)", "seconds")
 replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server()")
 # %% 16.2 wrong: returns the requested number | hint: The function returned the field `things` of the goal
 replace("        client.wait_for_result(rospy.Duration(2))\n    return client.get_result().fetched", "    return things")
-# %% 16.2 wrong: does not wait for the server | hint: The goal did not arrive at the server, because the
+# %% 16.2 wrong: does not wait for the server | hint: The server got no goal
 replace("\n    if not client.wait_for_server(rospy.Duration(2)):\n        return None", "")
 replace("return client.get_result().fetched", "result = client.get_result()\n    return result.fetched if result else None")
 # %% 16.2 wrong: does not set the field seconds | hint: The field `seconds` of the goal is not 0.1
@@ -204,6 +207,10 @@ replace("things=things, seconds", "seconds")
 replace("        client.wait_for_result(rospy.Duration(2))\n    return client.get_result().fetched", "    result = client.get_result()\n    return result.fetched if result else 0")
 # %% 16.2 wrong: returns None after the cancellation | hint: The function returned None
 replace("        client.wait_for_result(rospy.Duration(2))\n", "        return None\n")
+# %% 16.2 wrong: returns the result only in the state SUCCEEDED | hint: return the number for every final state, not only
+replace("    return client.get_result()", "    if client.get_state() != actionlib.GoalStatus.SUCCEEDED:\n        return None\n    return client.get_result()")
+# %% 16.2 wrong: calculates the number without a goal | hint: The server got no goal
+replace("    client.send_goal … .fetched", "    return min(things, int(seconds / 0.1))")
 # %% 16.2 wrong: returns None for an aborted goal | hint: The robot aborted the goal, but the function did not return
 replace("    return client.get_result()", "    if client.get_state() == actionlib.GoalStatus.ABORTED:\n        return None\n    return client.get_result()")
 # %% 16.2 wrong: sends the goal although there is no server | hint: No server started in time, so wait_for_server returned False
@@ -233,7 +240,9 @@ replace("default if isinstance(speed, (bool, str)) or number <= 0 else number", 
 replace("speed = rospy … return speed", 'return rospy.get_param(f"/{robot}/speed")')
 # %% 16.3 wrong: sets the parameter to the default value | hint: The function has set the parameter
 replace("    if isinstance", '    rospy.set_param(f"/{robot}/speed", speed)\n    if isinstance')
-# %% 16.3 wrong: reads a parameter with a fixed name | hint: The name of the parameter is wrong
+# %% 16.3 wrong: uses a table of speeds | hint: The function did not return the value of the parameter
+replace("speed = rospy … return speed", 'return {"robot1": 2.0, "robot2": 1.5}.get(robot, default)')
+# %% 16.3 wrong: reads a parameter with a fixed name | hint: The function did not return the value of the parameter
 replace("speed = rospy … return speed", 'return rospy.get_param("~speed", default)')
 
 # %% 16.3 wrong: stores the first value | hint: The parameter has changed, but the function returned the old value
@@ -350,7 +359,7 @@ replace("FetchFeedback(fetched", "FetchFeedback(delivered")
 replace("delivered + 1", "delivered")
 # %% 16.4 wrong: returns an empty result | hint: The result is wrong
 replace("set_succeeded(FetchResult(fetched=goal.things))", "set_succeeded()")
-# %% 16.4 wrong: publishes no charge during a delivery | hint: The battery sent no values during the delivery
+# %% 16.4 wrong: publishes no charge during a delivery | hint: The node published no charge during the delivery
 replace("robot.battery.publish(robot.charge)", "if not robot.server.is_active():\n            robot.battery.publish(robot.charge)")
 # %% 16.4 wrong: does not reduce the charge | hint: The charge did not change. Subtract 1
 replace("            self.charge -= 1\n", "")

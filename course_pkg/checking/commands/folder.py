@@ -78,9 +78,13 @@ class Running:
         status = self._channel.ask("poll", timeout=SLACK, process=self._number).get("status")
         return status if isinstance(status, int) else None
 
-    def listens_at(self, uri: str) -> bool:
-        """Return whether the command, or one of its child processes, listens at the port in `uri`."""
-        ports = self._channel.ask("ports", timeout=at_this_load(SLACK), process=self._number).get("ports")
+    def listens_at(self, uri: str, *, itself: bool = False) -> bool:
+        """Return whether the command, or one of its child processes, listens at the port in `uri`.
+
+        If `itself` is true, the child processes do not count.
+        """
+        reply = self._channel.ask("ports", timeout=at_this_load(SLACK), process=self._number)
+        ports = reply.get("own" if itself else "ports")
         return isinstance(ports, list) and port_of(uri) in ports
 
     def examine(self) -> None:

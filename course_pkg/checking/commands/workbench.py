@@ -75,8 +75,11 @@ class CommandFolders:
         return self._running[process].stop()
 
     def ports(self, process: int) -> Reply:
-        """Return the TCP ports on which a running command listens."""
-        return {"ports": self._running[process].ports}
+        """Return the TCP ports on which a running command listens.
+
+        The list "own" contains only the ports of the command's own process, without its descendants.
+        """
+        return {"ports": self._running[process].ports(), "own": self._running[process].ports(own=True)}
 
     def programs(self, process: int) -> Reply:
         """Return [SHA-256 sum, name] of each file that the processes of a running command execute."""
@@ -108,10 +111,12 @@ class _Running:
         """The exit status, or None while the command runs."""
         return self._process.returncode
 
-    @property
-    def ports(self) -> list[Json]:
-        """The TCP ports on which the command and its descendants listen."""
-        return [*sorted(self._process.listening_ports())]
+    def ports(self, *, own: bool = False) -> list[Json]:
+        """Return the TCP ports on which the command and its descendants listen.
+
+        If `own` is true, the ports of the descendants are omitted.
+        """
+        return [*sorted(self._process.listening_ports(descendants=not own))]
 
     @property
     def programs(self) -> list[Json]:

@@ -31,11 +31,12 @@ class DeadlinePassed(BaseException):
     """The time limit of the check is over; `except Exception` does not catch this error."""
 
 
-def run_check(channel: Channel, store: Store | None = None, only: str = "") -> Report:
+def run_check(channel: Channel, store: Store | None = None, only: str = "", kernel: int = 0) -> Report:
     """Run the check that the client requests; return the report, and send it to the client.
 
     `store` is a function that gets the id of the check and its result. It returns a message for the report,
     or "". Without `store`, nothing is stored. If `only` is not empty, only the check with this id is run.
+    `kernel` is the process id of the kernel, or 0 if it is not known.
     Raises ChannelError if the client does not request a check.
     """
     seed = int(os.environ.get("COURSE_SEED") or secrets.randbits(32))
@@ -46,7 +47,7 @@ def run_check(channel: Channel, store: Store | None = None, only: str = "") -> R
             raise CourseError("The kernel runs a different release of the course. Restart the kernel.")
         if only and check != only:
             raise CourseError(f"The kernel requested the check {check[:20]!r} instead of {only!r}.")
-        report = _run(find(check), channel, seed)
+        report = _run(find(check), channel, seed, kernel)
         message = store(check, record(report, seed)) if store else ""
         report = replace(report, note=" ".join(filter(None, (report.note, message))))
     except CourseError as error:
@@ -61,11 +62,11 @@ def record(report: Report, seed: int) -> dict[str, Json]:
     return {**report.as_dict(), "seed": seed, "time": time.time(), "course": _course_version()}
 
 
-def _run(part: Part, channel: Channel, seed: int) -> Report:
+def _run(part: Part, channel: Channel, seed: int, kernel: int) -> Report:
     if note := _not_attempted(part, channel):
         return _report(part, Verdict.NOT_ATTEMPTED, note=note)
     with on_the_graph() as node:
-        return _reported(part, CheckContext(part.check, channel, node, seed))
+        return _reported(part, CheckContext(part.check, channel, node, seed, kernel))
 
 
 def _reported(part: Part, context: CheckContext) -> Report:

@@ -47,7 +47,14 @@ def compare_cases(context: CheckContext, name: str, cases: Cases) -> None:
         holds=not odd,
         expected=f"one of {', '.join(map(repr, cases.entries))}",
         actual=odd[0] if odd else "",
-        hints=cases.spelling,
+        hints=[
+            (
+                lambda _: not isinstance(odd[0], str),
+                f"One {cases.entry} is not a string. For each {cases.case}, write exactly one string from "
+                f"{cases.listed}.",
+            ),
+            (ANYTHING, cases.spelling),
+        ],
     )
     for case, right in cases.right.items():
         again = f"Look at {cases.again.format(case)} again: {cases.decisive[case]}"

@@ -13,7 +13,7 @@ def random_boxes(context: CheckContext) -> list[list[float]]:
     The first box has the size of a table. The other boxes are very small boxes, large boxes,
     boxes with whole numbers, and a cube, in a random order. A server for boxes of one size therefore fails.
     """
-    sizes = [(0.5, 9.0, 2)] * context.random.integer(2, 4)
+    sizes = [(1.1, 9.0, 2)] * context.random.integer(2, 4)
     sizes += [(0.02, 0.4, 3), (12.0, 900.0, 2), (1.0, 99.0, 0)]
     boxes = [context.random.numbers(3, low, high, digits=digits) for low, high, digits in sizes]
     boxes.append([context.random.number(0.5, 90.0)] * 3)

@@ -5,9 +5,12 @@ A report shows the assertions of this module only if they fail.
 
 from __future__ import annotations
 
+import time
+
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.context import CheckContext
 
+PAUSE = 0.7  # After this time in s without a call, a server still has to offer its service.
 SERVED_HERE = """
 from rospy.impl.registration import get_service_manager
 
@@ -18,8 +21,13 @@ def served_at(name):
 """
 
 
-def require_served_by_program(context: CheckContext, program: Running, *services: str) -> None:
-    """Assert that the program, or one of its child processes, listens at the address of each service."""
+def require_served_by_program(
+    context: CheckContext, program: Running, *services: str, itself: bool = False
+) -> None:
+    """Assert that the program, or one of its child processes, listens at the address of each service.
+
+    If `itself` is true, the child processes do not count.
+    """
     seen = context.look()
     for name in services:
         service = seen.service(name)
@@ -30,7 +38,7 @@ def require_served_by_program(context: CheckContext, program: Running, *services
                 actual=f"no {name}",
                 hint="The service does not exist any more. Offer the service until the program ends.",
             )
-        if not program.listens_at(service.uri):
+        if not program.listens_at(service.uri, itself=itself):
             context.fail(
                 "the program itself serves its services",
                 expected="a server in the process of the program",
@@ -38,6 +46,26 @@ def require_served_by_program(context: CheckContext, program: Running, *services
                 hint=(
                     "Another process provides the service with the name in the exercise. Create "
                     "this service in your program."
+                ),
+            )
+
+
+def require_still_served(context: CheckContext, *services: str) -> None:
+    """Wait for a moment, and assert that each service still exists.
+
+    Use this assertion before the last call of a check: a server must not end some time after a call.
+    """
+    time.sleep(PAUSE)
+    seen = context.look()
+    for name in services:
+        if seen.service(name) is None:
+            context.fail(
+                "the service exists until the node is stopped",
+                expected=f"{name} in the list of services",
+                actual=f"no {name}, {PAUSE:g} s after a call",
+                hint=(
+                    "The service ended some time after a call. Offer the service until the node is "
+                    "stopped, and do not end the service or the node earlier."
                 ),
             )
 

@@ -40,7 +40,7 @@ def _days(person: Person) -> float:
         days = math.nan
     if not 0 <= days < 10_000:
         raise GradingError(
-            f"Line {person.line} of the roster: {COLUMN} is not a number of days. Write a number of at least "
-            "0, or leave this cell empty."
+            f"Line {person.line} of the roster: the value in the column {COLUMN} is not a number of days. "
+            "Write a number of at least 0, or leave this cell empty."
         )
     return days

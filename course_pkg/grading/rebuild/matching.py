@@ -71,8 +71,8 @@ class Matching:
             return _matched(chosen)
         if elsewhere := list(self._elsewhere(wanted)):
             note = (
-                f"The exercise's own cell contains no answer. The cell that {_known_by(wanted)} was "
-                "used instead."
+                f"The original cell of the exercise contains no answer. The cell that {_known_by(wanted)} "
+                "was used instead."
             )
             match = _matched(elsewhere)
             return Match(match.source, match.missing, (note, *match.notes), match.cells)

@@ -138,8 +138,8 @@ class ConnectionSteps:
                 "The header has one field with the name `error`, which contains the reason. "
                 "Then the server closes the connection, and the client sends no request."
                 if refused
-                else "The header contains the node and the type of the service. The MD5 sums are "
-                "equal, so a request can follow."
+                else "The header contains the name of the server's node and the type of the service. "
+                "The MD5 sums are equal, so a request can follow."
             )
             yield self._framed(title, False, came, header_pieces(came.data), says=says, bad=refused)
 

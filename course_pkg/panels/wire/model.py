@@ -90,8 +90,8 @@ def _look_up(wire: Wire, start: float) -> Iterator[Step]:
         "master",
         offset + connection.since(0, from_client=True),
         says=(
-            "The look-up uses XML-RPC: HTTP carries a method and its arguments as XML. Only the "
-            "look-up goes to the master."
+            "The look-up uses XML-RPC: the HTTP request contains the name of a method and its "
+            "arguments, as XML. Only the look-up goes to the master."
         ),
         size=len(asked),
         text=_xml(asked),

@@ -83,7 +83,7 @@ def _execute(server: actionlib.SimpleActionServer, execute: Execute, goal: Messa
     """Execute a goal, and set its terminal state even if `execute` raises an exception."""
     try:
         execute(goal, server)
-        message = "No terminal state was set."
+        message = "The function ended without a final state."
     except Exception as error:  # noqa: BLE001 -- a student's function may raise anything
         rospy.logerr("%s", traceback.format_exc())
         message = f"Exception in execute callback: {error}"

@@ -99,9 +99,12 @@ class SupervisedProcess:
             return False
         return True
 
-    def listening_ports(self) -> frozenset[int]:
-        """Return the TCP ports on which the command and its descendants listen."""
-        return listening_ports(self.pid)
+    def listening_ports(self, *, descendants: bool = True) -> frozenset[int]:
+        """Return the TCP ports on which the command and its descendants listen.
+
+        If `descendants` is false, the ports of the descendants are omitted.
+        """
+        return listening_ports(self.pid, descendants=descendants)
 
     def programs(self) -> set[tuple[str, str]]:
         """Return (SHA-256 sum, name) of each file that the command and its descendants execute.
@@ -144,14 +147,17 @@ def temporary_folder(prefix: str) -> Iterator[Path]:
         guard.end()
 
 
-def listening_ports(pid: int) -> frozenset[int]:
-    """Return the TCP ports on which this process and its descendants listen."""
+def listening_ports(pid: int, *, descendants: bool = True) -> frozenset[int]:
+    """Return the TCP ports on which this process and its descendants listen.
+
+    If `descendants` is false, the ports of the descendants are omitted.
+    """
     import psutil  # This import takes 15 ms, and most programs do not need it.
 
     ports: set[int] = set()
     with suppress(psutil.Error):  # The process may have ended.
         process = psutil.Process(pid)
-        for each in [process, *process.children(recursive=True)]:
+        for each in [process, *(process.children(recursive=True) if descendants else [])]:
             with suppress(psutil.Error):
                 sockets = each.net_connections("tcp")
                 ports.update(sock.laddr.port for sock in sockets if sock.status == psutil.CONN_LISTEN)

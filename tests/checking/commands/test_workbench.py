@@ -112,6 +112,26 @@ def test_a_command_that_ended_by_itself_has_a_status(bench: CommandFolders) -> N
     assert bench.stop(process)["status"] == 3
 
 
+LISTENS = """
+import socket, subprocess, sys, time
+own = socket.create_server(("127.0.0.1", 0))
+if sys.argv[1:]:
+    subprocess.Popen([sys.executable, __file__])
+time.sleep(60)
+"""
+
+
+def test_ports_of_the_own_process(bench: CommandFolders, tmp_path: Path) -> None:
+    """The list "own" omits the ports on which only a child process listens."""
+    (tmp_path / "listens.py").write_text(LISTENS)
+    folder = bench.folder(["listens.py"], {})["folder"]
+    process = bench.start(["python", "listens.py", "parent"], folder)["process"]
+    assert eventually(lambda: len(bench.ports(process)["ports"]) == 2)
+    ports = bench.ports(process)
+    assert len(ports["own"]) == 1
+    assert set(ports["own"]) < set(ports["ports"])
+
+
 def test_sigkill_leaves_no_folder(tmp_path: Path) -> None:
     """If the process that made a folder is killed, the folder disappears."""
     code = (

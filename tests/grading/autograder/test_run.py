@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from course_pkg.grading.autograder.settings import Settings, days_late
 from course_pkg.types.fields import Plain
 from tests.grading.handing_in import NAMES, folder, handed_out, raw, zipped
 from tests.grading.submitted import WRONG, hand_in
+from tests.support import usual
 
 VISIBLE = {"hidden", "after_due_date", "after_published", "visible"}
 NOBODY = {
@@ -125,3 +127,34 @@ def test_an_answer_earns_points_and_is_late(tmp_path: Path) -> None:
     assert late is not None
     assert 0.5 < late < 0.51
     assert graded(root, {NAMES["05"]: work}, late_per_day=50.0)["score"] == 1.0
+
+
+NOT_EXAMINED = {
+    "a reply that asks for a restart": """
+        import course_pkg.checking.kernel.agent as agent
+        original = agent.KernelAgent.reply
+        agent.KernelAgent.reply = lambda *both: {**original(*both), "older": "Restart the kernel."}
+    """,
+    "no master": """
+        import os, xmlrpc.client
+        xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).shutdown("/chapter_05", "because")
+    """,
+    "a process that has ended": "import os; os._exit(0)",
+}
+
+
+@pytest.mark.usefixtures("sandbox")
+@pytest.mark.parametrize("attack", usual(1, NOT_EXAMINED))
+def test_an_answer_that_prevents_its_check_has_failed(tmp_path: Path, attack: str) -> None:
+    """If an answer prevents its check from finishing, the part keeps its maximum and earns no points."""
+    answers = dict.fromkeys([f"05.{number}" for number in range(2, 9)], "")
+    answers["05.1"] = textwrap.dedent(attack) + WRONG
+    work = hand_in(tmp_path / "work", "mia", answers=answers).read_bytes()
+    results = graded(tmp_path / "root", {NAMES["05"]: work})
+    tests = results["tests"]
+    assert isinstance(tests, list)
+    (found,) = [each for each in tests if isinstance(each, dict) and each["number"] == "05.1"]
+    assert results["score"] == 0
+    assert (found["score"], found["max_score"], found["status"]) == (0, 2, "failed")
+    assert "No points" in str(found["output"])
+    assert "not examined" not in str(found["output"])

@@ -6,12 +6,13 @@ import signal
 import socket
 import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
 
 from course_pkg.grading.review.overrides import read_overrides
+from course_pkg.ros.process.supervisor import descendants
 from course_pkg.setup import Places
 from tests.grading.review.classes import TOKEN, serving, write_class
 from tests.web_pages.servers import ask
@@ -104,3 +105,59 @@ def test_a_wrong_file_stops_the_review(tmp_path: Path, content: str) -> None:
     (out / "overrides.csv").write_bytes(content.encode("latin-1"))
     assert "line 1" in _refused(out)
     assert (out / "overrides.csv").read_bytes() == content.encode("latin-1")
+
+
+def _in_a_small_folder(source: Path, out: Path) -> list[str]:
+    """Return a command that runs `course review` for a copy of `source`, in a small file system at `out`."""
+    out.mkdir()
+    words = [
+        "bwrap",
+        "--die-with-parent",
+        "--dev-bind",
+        "/",
+        "/",
+        "--size",
+        str(2 << 20),
+        "--tmpfs",
+        str(out),
+    ]
+    script = 'cp -r "$0/." "$1" && exec "$2" review "$1" --no-browser'
+    return [*words, "sh", "-c", script, str(source), str(out), str(COURSE)]
+
+
+def _fill(path: Path) -> None:
+    """Write to `path` until the disk is full."""
+    with path.open("wb", buffering=0) as file, suppress(OSError):
+        while file.write(bytes(1 << 12)):
+            pass
+
+
+@pytest.mark.usefixtures("sandbox")
+def test_a_full_disk_during_a_review(tmp_path: Path) -> None:
+    """If the disk is full, each change gets one message, and all earlier points and comments stay."""
+    out = tmp_path / "grades"
+    command = _in_a_small_folder(write_class(tmp_path / "source"), out)
+    later = {"number": 2, "points": "1", "comment": "x" * 3900}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout
+            url, _, token = process.stdout.readline().split()[-1].partition("/?token=")
+            own = {"Authorization": f"token {token}"}
+            # Only the processes in bwrap see the small file system.
+            seen = Path(f"/proc/{descendants(process.pid)[-1]}/root{out}")
+            assert ask(f"{url}/save", {"number": 1, "points": "1", "comment": "kept"}, **own)[0] == 200
+            before = (seen / "overrides.csv").read_bytes()
+            _fill(seen / "other")
+            for path, change in (("save", later), ("save", later), ("undo", {})):
+                status, text, _ = ask(f"{url}/{path}", change, **own)
+                assert status == 507
+                assert "overrides.csv cannot be written: No space left on device." in str(text)
+                assert (seen / "overrides.csv").read_bytes() == before
+            assert not [each.name for each in seen.iterdir() if each.name.startswith(".overrides")]
+            (seen / "other").unlink()
+            assert ask(f"{url}/save", later, **own)[0] == 200
+            rows = read_overrides(seen).rows.values()
+            assert [(row.points, row.comment) for row in rows] == [(1, "kept"), (1, later["comment"])]
+        finally:
+            process.kill()
+        assert "Traceback" not in process.communicate()[1]

@@ -62,7 +62,10 @@ def test_a_failing_function_aborts_only_its_goal(joined: Kernel) -> None:
         for things in (1, 0):
             client.send_goal_and_wait(FetchGoal(things=things), rospy.Duration(10))
             result.append((client.get_state() == actionlib.GoalStatus.ABORTED, client.get_goal_status_text()))
-    """) == [[True, "Exception in execute callback: division by zero"], [True, "No terminal state was set."]]
+    """) == [
+        [True, "Exception in execute callback: division by zero"],
+        [True, "The function ended without a final state."],
+    ]
 
 
 def test_a_kernel_with_an_action_ends_by_itself(master: PrivateMaster) -> None:

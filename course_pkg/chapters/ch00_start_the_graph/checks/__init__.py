@@ -80,6 +80,11 @@ def read_the_graph(context: CheckContext) -> None:
                     "Compare your answer with the name on the graph, letter by letter. Check the "
                     "capital letters, and write only one slash, at the start of the name.",
                 ),
+                (
+                    ANYTHING,
+                    "Your answer is not the name of the server's node. Look for this name in the output "
+                    "of `rosnode list`.",
+                ),
             ],
         )
     with context.goal(SERVICE):
@@ -119,6 +124,11 @@ def read_the_graph(context: CheckContext) -> None:
                     "Compare your answer with the name on the graph, letter by letter. Check the "
                     "capital letters, and write only one slash, at the start of the name.",
                 ),
+                (
+                    ANYTHING,
+                    "Your answer is not the name of the service that measures boxes. Look for this name in "
+                    "the output of `rosservice list`.",
+                ),
             ],
         )
     with context.goal(TYPE):
@@ -150,6 +160,11 @@ def read_the_graph(context: CheckContext) -> None:
                 (
                     matches("(?-i:course_pkg/Geometry)"),
                     ("The name of this type starts with a small letter. Write `geometry` with a small g."),
+                ),
+                (
+                    ANYTHING,
+                    "Your answer is not the type of the service that measures boxes. Write the "
+                    "name of this service after `rosservice type`.",
                 ),
             ],
         )
@@ -317,6 +332,11 @@ def count_what_was_missed(context: CheckContext) -> None:
             hints=(
                 "The numbers that your function returned were not published on the given "
                 "topic. Receive messages from the topic whose name is in the argument `topic`."
+            )
+            if not 0 <= before - first < len(sent)
+            else (
+                "The second number was not published. Do not calculate this number: receive a message "
+                "after the pause, and return the number in this message."
             ),
         )
         between = sent[after - first] - sent[before - first]

@@ -173,10 +173,14 @@ def _in_a_random_order(context: CheckContext) -> None:
             expected=volume,
             actual=context.run("ask_wherever", last, *sides, hints=_LOST + _NOBODY).returned(),
             near=1e-6,
-            hints=(
-                "The result has to depend on the services that exist now, not on earlier calls of "
-                "your function. Each time your function is called, get the list of services again."
-            ),
+            hints=[
+                (99.0, LOOKS_LIKE_IT),
+                (
+                    ANYTHING,
+                    "The result has to depend on the services that exist now, not on earlier calls of "
+                    "your function. Each time your function is called, get the list of services again.",
+                ),
+            ],
         )
         if server:
             _is_sent(context, server, sides)

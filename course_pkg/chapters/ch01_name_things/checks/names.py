@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import difflib
 import time
 from contextlib import ExitStack, suppress
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.common_hints import NO_RETURN
-from course_pkg.checking.shared.command_line import commands_of
+from course_pkg.checking.shared.command_line import OPERATORS, commands_of
 from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.ros.protocol.snapshot import ServiceSeen, Snapshot
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient
 
 GEOMETRY = "course_pkg/geometry"
+TOPICS = ("joint_states", "mirrored_joints")  # The viewer uses these topics.
 TIMEOUT = 5.0  # A running node has to list its topics within this time in s.
 START = 20.0  # A program may take up to this time in s to start; usually, it takes 0.5 s.
 WHERE = "the service is called measure, and it is in the namespace of the room"
@@ -44,11 +46,22 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
     """Run the student's commands for two rooms, and call the servers that the commands start."""
     rooms = [context.random.word() for _ in range(2)]
     with ExitStack() as running:
-        servers = {}
+        servers, nodes = {}, set()
         for room in rooms:
             before = {service.uri for service in context.look().services}
-            servers[room] = _start(context, running, "measurer_command", room, "server")
-            _serves(context, servers[room], room, before)
+            servers[room], _ = _start(context, running, "measurer_command", room, "server")
+            node = _serves(context, servers[room], room, before)
+            if node in nodes:
+                context.fail(
+                    "the service of each room measures boxes",
+                    expected="two servers that run at the same time",
+                    actual=f"two servers with the name {node}",
+                    hint=(
+                        "The nodes of two rooms have the same name. When the second node starts, the "
+                        "master ends the first node."
+                    ),
+                )
+            nodes.add(node)
         for room in context.random.shuffled(rooms):
             length, width, height = context.random.numbers(3, 0.5, 9.0)
             measure = context.service(f"/{room}/measure", GEOMETRY)
@@ -77,14 +90,16 @@ def a_viewer_for_each_arm(context: CheckContext) -> None:
     with ExitStack() as running:
         for arm in (context.random.word() for _ in range(2)):
             before = {node.name for node in context.look().nodes}
-            viewer = _start(context, running, "viewer_command", arm, "simulator")
-            _views(context, viewer, arm, before)
+            viewer, words = _start(context, running, "viewer_command", arm, "simulator")
+            _views(context, viewer, words, arm, before)
 
 
-def _start(context: CheckContext, running: ExitStack, function: str, name: str, program: str) -> Running:
+def _start(
+    context: CheckContext, running: ExitStack, function: str, name: str, program: str
+) -> tuple[Running, list[str]]:
     """Call the student's function `function` with the argument `name`, and run the returned command.
 
-    The command ends when the ExitStack `running` is closed.
+    Return the running command and its words. The command ends when the ExitStack `running` is closed.
     """
     command = context.run(function, name).returned()
     words = next(iter(commands_of(command)), [])
@@ -111,17 +126,22 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
                 ),
             ),
             (
+                matches(rf"^rosrun course_pkg {program}\b.*[{OPERATORS}]"),
+                "Your string contains more than one command. Return only one command: its remappings "
+                "have to set all names.",
+            ),
+            (
                 ANYTHING,
                 "The command has to begin with `rosrun`, the name of the package and the name of the "
                 "program.",
             ),
         ],
     )
-    return running.enter_context(context.folder().start(*words, worded=str(command)))
+    return running.enter_context(context.folder().start(*words, worded=str(command))), words
 
 
-def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
-    """Assert that the service and the node of the room `room` have the right names.
+def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> str:
+    """Assert that the room's service and node have the right names; return the name of the node.
 
     `before` contains the addresses of the services that existed before the server was started.
     """
@@ -165,6 +185,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
             ],
         )
     require_served_by_program(context, server, wanted)
+    return service.node
 
 
 def _astray(room: str, found: str, node: str) -> str:
@@ -204,10 +225,11 @@ def _astray(room: str, found: str, node: str) -> str:
     )
 
 
-def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:
+def _views(context: CheckContext, viewer: Running, words: list[str], arm: str, before: set[str]) -> None:
     """Assert that the started node and its topics have the right names for the arm `arm`.
 
-    `before` contains the names of the nodes that existed before the command was run.
+    `words` contains the words of the command that started the node. `before` contains the names of the nodes
+    that existed before the command was run.
     """
     name, seen = _viewer(context, viewer, before)
     with context.goal(VIEWER):
@@ -238,6 +260,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             expected=[f"/{arm}/joint_states"],
             actual=[topic.name for topic in seen.topics if name in topic.subscribers],
             hints=[
+                *_misspelt("joint_states", words),
                 (
                     ("/screen/joint_states",),
                     "The viewer subscribes to a topic in its own namespace, but no arm publishes on "
@@ -263,6 +286,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             expected=[f"/screen/{arm}/mirrored_joints"],
             actual=[topic for topic in published if topic != "/rosout" and not topic.endswith("/pictures")],
             hints=[
+                *_misspelt("mirrored_joints", words),
                 (
                     ("/screen/mirrored_joints",),
                     "The viewers of all arms publish on the same topic. Also remap `mirrored_joints`.",
@@ -281,6 +305,22 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
                 ),
             ],
         )
+
+
+def _misspelt(topic: str, words: list[str]) -> list[tuple[tuple[str], str]]:
+    """Return a hint for a remapping in `words` whose old name is similar to the topic `topic`.
+
+    The topic still has its old name in the namespace /screen. If there is no such remapping, return [].
+    """
+    old = [word.partition(":=")[0].strip("/") for word in words if ":=" in word]
+    alike = [name for name in difflib.get_close_matches(topic, old) if name not in TOPICS]
+    if topic in old or not alike:
+        return []
+    hint = (
+        f"The program has no topic `{alike[0]}`, so ROS ignores this remapping. Compare the old name in the "
+        "remapping letter by letter with the name of the topic."
+    )
+    return [((f"/screen/{topic}",), hint)]
 
 
 def _require_own_topics(context: CheckContext, viewer: Running, name: str, seen: Snapshot) -> None:

@@ -238,7 +238,8 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
         hints=[
             (
                 lambda actual: mode != 1 and not actual,
-                "The total is 0 for this mode. For every mode, set total to the sum of request.seconds.",
+                "For this mode, your program returned the total 0. For every mode, set total to the sum of "
+                "request.seconds.",
             ),
             (
                 0.0,

@@ -9,7 +9,7 @@ from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.script import require_shebang
-from course_pkg.checking.shared.served_by import require_served_by_program
+from course_pkg.checking.shared.served_by import require_served_by_program, require_still_served
 from course_pkg.ros.protocol.probe import ask_all, header_fields, service_probe
 from course_pkg.ros.protocol.snapshot import ServiceSeen
 from course_pkg.waiting import at_this_load, wait_until
@@ -57,9 +57,10 @@ def close_for_maintenance(context: CheckContext) -> None:
     _can_be_imported(context, folder.command("python", "-c", IMPORT, within=4.0, worded="import arm"))
     with folder.start("python", FILE, worded=f"python3 {FILE}") as program:
         _serves(context, program)
-        require_served_by_program(context, program, MOVE, MAINTENANCE)
+        require_served_by_program(context, program, MOVE, MAINTENANCE, itself=True)
         _works(context)
-        require_served_by_program(context, program, MOVE, MAINTENANCE)
+        require_still_served(context, MOVE, MAINTENANCE)
+        require_served_by_program(context, program, MOVE, MAINTENANCE, itself=True)
 
 
 def _serves(context: CheckContext, program: Running) -> None:

@@ -1,14 +1,15 @@
 """The geometry servers: one server measures every box, and the other server refuses impossible boxes."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from itertools import combinations
+from math import prod
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.shared.geometry import random_boxes
-from course_pkg.checking.shared.served_by import require_served_by_notebook
+from course_pkg.checking.shared.served_by import require_served_by_notebook, require_still_served
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
@@ -20,6 +21,10 @@ NEAR = 1e-5
 MANY = 6
 # The pattern matches an error message from the student's handler, but no message of rospy itself.
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
+WHOLE = (
+    "Your handler uses only whole numbers for the sides. Multiply the sides with all their digits after the "
+    "decimal point."
+)
 AREA, VOLUME = "Return the area of the floor.", "Return the volume."
 MEASURED = "Return the area and the volume of a box without a negative side."
 REFUSED = "Refuse a negative side with a rospy.ServiceException."
@@ -37,7 +42,10 @@ def area_and_volume(context: CheckContext) -> None:
     """Send boxes of several sizes; in all boxes except one, the three sides are different."""
     get_geometry = context.service("/getGeometry", "course_pkg/geometry")
     require_served_by_notebook(context, "/getGeometry")
-    for length, width, height in random_boxes(context):
+    boxes = random_boxes(context)
+    for number, (length, width, height) in enumerate(boxes, 1):
+        if number == len(boxes):
+            require_still_served(context, "/getGeometry")
         response = get_geometry(length=length, width=width, height=height)
         with context.goal(AREA):
             context.expect(
@@ -53,12 +61,14 @@ def area_and_volume(context: CheckContext) -> None:
                 expected=width * length * height,
                 actual=response.volume,
                 near=NEAR,
-                hints=_about_volume(width * length, height),
+                hints=_about_volume(width, length, height),
             )
 
 
-def _about_volume(area: float, height: float) -> Hints:
+def _about_volume(width: float, length: float, height: float) -> Hints:
+    area = width * length
     return [
+        (_product_of_whole(width, length, height), WHOLE),
         (
             0.0,
             (
@@ -83,8 +93,19 @@ def _about_volume(area: float, height: float) -> Hints:
     ]
 
 
+def _product_of_whole(*sides: float) -> Callable[[float], bool]:
+    """Return a condition for the product of the sides without their digits after the decimal point.
+
+    If this product is 0 or the rounded right value, the condition is false, because other mistakes are more
+    probable.
+    """
+    product, right = prod(map(int, sides)), prod(sides)
+    return lambda actual: actual == product and product not in (0, int(right), round(right))
+
+
 def _about_area(width: float, length: float, height: float) -> Hints:
     return [
+        (_product_of_whole(width, length), WHOLE),
         (0.0, "The area is 0, because ROS sends 0 for a number that you do not set. Set the field `area`."),
         (width + length, "Your area is width + length. Multiply the two sides; do not add them."),
         (
@@ -152,6 +173,7 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
     depths = [*(-depth - fraction for depth in context.random.integers(2, 1, 49)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})
+    require_still_served(context, "/getGeometryChecked")
     for pair in combinations(SIDES, 2):
         _refused(context, get_geometry, dict(zip(pair, context.random.shuffled(depths[:2]), strict=True)))
     context.fulfilled(REFUSED)

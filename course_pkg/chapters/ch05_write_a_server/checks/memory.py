@@ -2,17 +2,33 @@
 
 from collections.abc import Callable
 
+import rospy
+
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
-from course_pkg.checking.assertions import Condition, Hints
-from course_pkg.checking.shared.served_by import require_served_by_notebook
+from course_pkg.checking.assertions import Condition
+from course_pkg.checking.formatting import explained
+from course_pkg.checking.peers.service_calls import TIMEOUT
+from course_pkg.checking.plain_values import Message, Value
+from course_pkg.checking.shared.served_by import require_served_by_notebook, require_still_served
+from course_pkg.errors import GraphError
+from course_pkg.ros.node.proxy import BoundedProxy
 
-A_NEW_SWITCH = """
-from rospy.impl.tcpros_service import convert_return_to_response
-from std_srvs.srv import SetBoolRequest, SetBoolResponse
+# The check runner calls a new object of the student's class through a service. If the kernel returned the
+# result of a direct call, the student's code could replace this result.
+A_NEW_SERVER = """
+import rospy
+from std_srvs import srv
 
 
-def a_new_switch(kind, data):
-    return convert_return_to_response(kind().handle_switch(SetBoolRequest(data)), SetBoolResponse)
+class NewServer:
+    def open(self, kind, handler, name, service):
+        self.service = rospy.Service(service, getattr(srv, name), getattr(kind(), handler))
+
+    def close(self):
+        self.service.shutdown("checked")
+
+
+new_server = NewServer()
 """
 NEW_AND_OFF = "handle_switch(data=False) of a new Switch()"
 MESSAGE: list[tuple[Condition, str]] = [
@@ -27,14 +43,6 @@ MESSAGE: list[tuple[Condition, str]] = [
         'The message contains more than "on" or "off" in small letters. Return only one of these two words.',
     ),
 ]
-A_NEW_COUNTER = """
-from rospy.impl.tcpros_service import convert_return_to_response
-from std_srvs.srv import TriggerRequest, TriggerResponse
-
-
-def a_new_counter(kind):
-    return convert_return_to_response(kind().handle_count(TriggerRequest()), TriggerResponse).message
-"""
 ANOTHER_CLIENT = """
 import rospy
 from std_srvs.srv import Trigger
@@ -47,7 +55,13 @@ NO_REFUSAL = (
     "It is not an error if the switch already has the wanted position. Return success=False and the "
     "position in the response."
 )
-NOT_OFF: Hints = [
+ALWAYS_TRUE: list[tuple[Condition, str]] = [
+    (
+        lambda actual: actual == {"success": True, "message": "off"},
+        "A new switch is off, so a call with data=False does not move it. Return success=False in this case.",
+    )
+]
+NOT_OFF: list[tuple[Condition, str]] = [
     (
         lambda actual: actual["message"] == "on",
         "A call with data=False switched a new switch on. The field `data` is the wanted position.",
@@ -92,8 +106,8 @@ def a_counter_that_resets(context: CheckContext) -> None:
             ),
             (
                 matches(r"args are\(,\)"),
-                "The handler of /count returned an empty response. Check whether you exchanged the "
-                "handlers of the two services.",
+                "The handler of /count returned an empty response. Use the handler of "
+                "/reset_count only for /reset_count.",
             ),
         ],
     )
@@ -165,6 +179,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
                 ],
             )
             before = response.message
+    require_still_served(context, "/count", "/reset_count")
     context.prepare(ANOTHER_CLIENT)
     context.expect(
         "after each reset, the messages of the calls are 1, 2, 3",
@@ -183,13 +198,13 @@ def _starts_from_zero(context: CheckContext) -> None:
     """
     if not context.has("Counter"):
         return
-    context.prepare(A_NEW_COUNTER)
-    new = context.run("a_new_counter", Its("Counter"), worded="handle_count() of a new Counter()")
-    if not new.error and new.value != "1":
+    worded = "handle_count() of a new Counter()"
+    new, error, created = _answer_of_a_new(context, "Counter", "handle_count", "Trigger", worded)
+    if created and (error or new.message != "1"):
         context.fail(
             "after each reset, the messages of the calls are 1, 2, 3",
             expected="'1'",
-            actual=repr(new.value),
+            actual=error or repr(new.message),
             hint="A new counter did not start from zero. Set the count to zero in `__init__`, and "
             "store this count in `self`.",
         )
@@ -241,9 +256,10 @@ def a_switch_that_tells(context: CheckContext) -> None:
                 *MESSAGE,
             ],
         )
-    on = False
+    on, never_false = False, True
     for data in [True, True, False, False, *(context.random.choice([True, False]) for _ in range(6))]:
         response = turn(data=data)
+        never_false = never_false and response.success
         with context.goal(POSITION):
             context.expect(
                 "the message is the position after the call",
@@ -272,15 +288,47 @@ def a_switch_that_tells(context: CheckContext) -> None:
         on = data
     context.fulfilled(POSITION)
     context.fulfilled(MOVED)
-    context.prepare(A_NEW_SWITCH)
+    require_still_served(context, "/switch")
     if not context.has("Switch"):  # The student may use a function as the handler, without a class.
         return
-    for stands, hints in ((False, NOT_OFF), (True, SHARES)):
+    for stands, hints in ((False, [*ALWAYS_TRUE, *NOT_OFF] if never_false else NOT_OFF), (True, SHARES)):
         turn(data=stands)
+        new, error, _ = _answer_of_a_new(
+            context, "Switch", "handle_switch", "SetBool", NEW_AND_OFF, data=False
+        )
+        context.require(
+            f"{NEW_AND_OFF} returns",
+            holds=not error,
+            expected="a value",
+            actual=error,
+            hints=explained(error),
+        )
         context.expect(
             "a new switch is off",
             expected={"success": False, "message": "off"},
-            actual=context.run("a_new_switch", Its("Switch"), False, worded=NEW_AND_OFF).returned(),
+            actual=new,
             hints=hints,
         )
     turn(data=False)
+
+
+def _answer_of_a_new(
+    context: CheckContext, kind: str, handler: str, type_name: str, worded: str, **fields: Value
+) -> tuple[Message, str, bool]:
+    """Call a handler of a new object of the student's class once.
+
+    Return (the response, an error message, whether the object could be created without arguments).
+    """
+    name, service = f"/{context.random.word()}", f"std_srvs/{type_name}"
+    context.prepare(A_NEW_SERVER)
+    opened = context.run("new_server.open", Its(kind), handler, type_name, name, worded=worded)
+    if opened.error:
+        return None, opened.error, False
+    proxy = BoundedProxy(name, context.service_class(service), timeout=TIMEOUT)
+    try:
+        return proxy.call(**fields), "", True
+    except (rospy.ServiceException, GraphError, OSError) as error:
+        return None, f"{type(error).__name__}: {error}", True
+    finally:
+        proxy.close()
+        context.run("new_server.close", worded=worded)

@@ -1,11 +1,14 @@
 """The client as a program, with arguments on the command line."""
 
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import same
 
-IS_LIST = """
-def is_list(function, *args):
-    return isinstance(function(*args), list)
-"""  # A check receives a tuple as a list, so only code in the kernel can distinguish a tuple from a list.
+LONGER = """
+def longer(function, argv, number):
+    numbers = function(argv)
+    numbers.append(number)
+    return numbers
+"""  # A check receives a tuple as a list, but code in the kernel can append a number only to a list.
 FOR_ROS = "Arguments with := are for ROS. Use rospy.myargv(argv), which returns all other arguments."
 NUMBERS = "Return the three numbers as a list, and ignore arguments for ROS."
 
@@ -44,7 +47,7 @@ def read_the_arguments(context: CheckContext) -> None:
             (
                 None,
                 "The function returned None, although `argv` contains three numbers after the name "
-                "of the program. Note that 1.5 is a number, too.",
+                "of the program. Read only `argv`, and note that 1.5 is a number, too.",
             ),
             (
                 lambda actual: all(isinstance(item, str) for item in actual),
@@ -53,6 +56,11 @@ def read_the_arguments(context: CheckContext) -> None:
             (
                 lambda actual: all(isinstance(item, int) for item in actual),
                 "A side can be a number such as 1.5. Convert each side to float, not to int.",
+            ),
+            (
+                lambda actual: not {*actual} & {*sides},
+                "The function returned numbers that are not in `argv`. Convert the strings in `argv` "
+                "to float, and return these numbers.",
             ),
             (ANYTHING, name_first),
         ],
@@ -127,12 +135,12 @@ def read_the_arguments(context: CheckContext) -> None:
             hints="One argument is a word. Return None, and do not ignore the word.",
         )
     _in_a_random_order(context, program)
-    context.prepare(IS_LIST)
+    context.prepare(LONGER)
+    fourth = context.random.integer(10, 99)
+    its = Its("read_sides"), [program, *texts], fourth
     context.require(
         "three numbers are returned",
-        holds=context.run("is_list", Its("read_sides"), [program, *texts], worded="read_sides()").returned(
-            bool
-        ),
+        holds=same([*sides, fourth], context.run("longer", *its, worded="read_sides()").value, 1e-9),
         expected="a list of three numbers",
         actual="three numbers, but not in a list",
         hints="The numbers are right, but they are not in a list. Return a list, not a tuple.",

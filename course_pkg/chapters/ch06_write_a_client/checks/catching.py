@@ -79,12 +79,6 @@ def catch_what_can_happen(context: CheckContext) -> None:
             _is_called_once(context, server)
     _in_a_random_order(context, sides)
     context.fulfilled(CAUGHT)
-    # rospy replaces None by 0, so None is not a mistake.
-    slips = [f"{context.random.word()} metres", context.random.number(2.0, 9.0) * 1e200, sides, {"side": 1.0}]
-    for slip in context.random.shuffled(slips):
-        for place in range(3):
-            wrong = [*sides[:place], slip, *sides[place + 1 :]]
-            _comes_out(context, context.run("volume_or_none", good, *wrong), repr(slip))
     converted = (
         "The function accepted a string as a number, but a string has to cause an exception. "
         "Do not convert the arguments."
@@ -92,6 +86,12 @@ def catch_what_can_happen(context: CheckContext) -> None:
     for place, side in enumerate(sides):
         wrong = [*sides[:place], str(side), *sides[place + 1 :]]
         _comes_out(context, context.run("volume_or_none", good, *wrong), repr(str(side)), converted)
+    # rospy replaces None by 0, so None is not a mistake.
+    slips = [f"{context.random.word()} metres", context.random.number(2.0, 9.0) * 1e200, sides, {"side": 1.0}]
+    for slip in context.random.shuffled(slips):
+        for place in range(3):
+            wrong = [*sides[:place], slip, *sides[place + 1 :]]
+            _comes_out(context, context.run("volume_or_none", good, *wrong), repr(slip))
     context.prepare(NO_NAMES)
     for kind in ("TypeError", "AttributeError", "ValueError"):
         slipped = context.run("volume_or_none", Its(f"no_name.{kind}"), *sides)
@@ -151,7 +151,7 @@ def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDD
         holds=bool(wrong.error),
         expected=f"an error about {slip}",
         actual=wrong.error or "no error",
-        hints=hint,
+        hints=HIDDEN if wrong.value is None else hint,
     )
 
 
@@ -168,7 +168,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
         hints=[
             (
                 matches("^ServiceException.*(responded with|transport)"),
-                "This failed call also raised rospy.ServiceException. Return None for each "
+                "In this case, too, the call raised rospy.ServiceException. Return None for each "
                 "rospy.ServiceException, and ignore the text of its error message.",
             ),
             (

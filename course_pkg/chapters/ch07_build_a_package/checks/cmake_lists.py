@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shlex
+
 from course_pkg.chapters.ch07_build_a_package.checks.packages import GEOMETRY, MY_GEOMETRY
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.plain_values import Message
@@ -58,7 +60,7 @@ def the_build(context: CheckContext) -> None:
     md5, request = kind.md5, kind.cls._request_class(*context.random.numbers(4, 0.5, 9.0))
     _has_type(context, package, text, md5, request)
     context.fulfilled(GENERATED)
-    _target_waits(context, package, text, md5)
+    _target_waits(context, package, text)
     context.fulfilled(WAITS)
     _tells_other_packages(context, package, text)
 
@@ -90,9 +92,15 @@ def _why_no_type(text: str) -> str:
     )
 
 
-def _target_waits(context: CheckContext, package: BuiltPackage, text: str, wanted: str) -> None:
-    """Build only the target while the classes are missing; the build must generate the classes."""
-    line = f"rm -rf {CLASSES} && make -C build {TARGET}"
+def _target_waits(context: CheckContext, package: BuiltPackage, text: str) -> None:
+    """Build only the target while the classes are missing; the build must generate the classes.
+
+    The definition has changed since the first build, so that copies of the first classes are wrong.
+    """
+    definition = f"float32 {context.random.word()}\n{GEOMETRY}"
+    wanted = compile_service("my_geometry/geometry", definition).md5
+    changed = f"printf %s {shlex.quote(definition)} > {MY_GEOMETRY.path('srv/geometry.srv')}"
+    line = f"rm -rf {CLASSES} && {changed} && make -C build {TARGET}"
     done = package.folder.command("bash", "-c", line, within=20.0, worded=f"make {TARGET}")
     unknown = "No rule to make target" in done.out + done.err
     context.require(
@@ -129,11 +137,12 @@ def _why_not_waiting(text: str, *, unknown: bool) -> str:
 
 
 def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: str) -> None:
-    # catkin_package writes the names after CATKIN_DEPENDS into the line "set(depends …".
-    done = package.folder.command("grep", "-c", "^set(depends .*message_runtime", CONFIGURATION)
+    # catkin_package writes the names after CATKIN_DEPENDS into the line "set(depends …". A later line has no
+    # effect on other packages.
+    done = package.folder.command("grep", "--max-count=1", "^ *set(depends ", CONFIGURATION)
     context.require(
         "every package that uses this package also depends on message_runtime",
-        holds=done.status == 0,
+        holds="message_runtime" in done.out,
         expected="message_runtime in CATKIN_DEPENDS of catkin_package",
         actual="no message_runtime",
         hints="In catkin_package, message_runtime is missing. Write CATKIN_DEPENDS, and then the packages "

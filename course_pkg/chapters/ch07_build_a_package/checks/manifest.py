@@ -114,6 +114,11 @@ def _texts(text: str) -> dict[str, str]:
 
 def _about_dependency(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
+    if "condition" in text and any(each.name in (tag, "depend") for each in elsewhere):
+        return (
+            f"The tag for {package} has the attribute `condition`, so some versions of ROS ignore this tag. "
+            "Remove the condition."
+        )
     if elsewhere:
         return (
             f"The tag {elsewhere[0].name} in line {elsewhere[0].line} is not enough for {package}. "

@@ -20,6 +20,7 @@ from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.catkin_package import built
+from course_pkg.checking.shared.served_by import require_still_served
 from course_pkg.workspace import explain
 
 SERVER = Program("scripts/on_off_server.py", "ON_OFF_SERVER", "/onOff")
@@ -91,6 +92,7 @@ def the_on_off_server(context: CheckContext) -> None:
                 ],
             )
         context.fulfilled(ANSWERED)
+        require_still_served(context, name)
         for number in (2, -1, context.random.integer(3, 2_000_000_000)):
             service.refused(
                 "any other number is refused, and the error message contains the number",
@@ -151,7 +153,7 @@ def the_on_off_client(context: CheckContext) -> None:
         holds=len(sent) == calls,
         expected=f"{calls} calls",
         actual=f"{len(sent)} calls, and {_ending(done)}",
-        hints=_why_not_sent(len(sent), done),
+        hints=_why_not_sent(len(sent), calls, done),
     )
     context.require(
         "each number is a random number, 0 or 1",
@@ -182,7 +184,7 @@ def the_on_off_client(context: CheckContext) -> None:
     )
 
 
-def _why_not_sent(count: int, done: Finished) -> str:
+def _why_not_sent(count: int, wanted: int, done: Finished) -> str:
     printed = done.out + done.err
     if "Traceback" in printed:
         fault = explain(printed)
@@ -192,10 +194,17 @@ def _why_not_sent(count: int, done: Finished) -> str:
             "The client does not end. Check the name of the service in wait_for_service, and check that "
             "the loop ends."
         )
+    if count == 0:
+        return "The client ended, but it did not call /onOff. Call this service COUNT times."
     if count == 1:
         return (
             "The client called the service only once. Read the number of calls from the first "
             "argument: int(sys.argv[1])."
+        )
+    if abs(count - wanted) == 1:
+        return (
+            "The client made one call too few or one call too many. Count how often the loop runs if the "
+            "first argument is 1."
         )
     return (
         "The number of calls is wrong. The first argument contains the number of calls that the "

@@ -56,6 +56,15 @@ ENDINGS = (  # Each entry contains a pattern for the program's output, and a hin
         "from your own package: from {own}.srv.",
     ),
     (
+        r"No module named 'course_pkg\.(chapters|nodes)\b",
+        "Your script starts or imports a program of the course. Write the code of the node yourself.",
+    ),
+    (
+        r"(?s)Couldn't find executable named.*/install/",
+        "rosrun does not find the installed script. Install a copy of the script, not a link to the script "
+        "in src.",
+    ),
+    (
         r"required file not found|bad interpreter",
         "The first line of the script names a program that is not installed. Write a shebang "
         "that names python3.",
@@ -211,9 +220,10 @@ def why_not(
 
 
 def own_line(program: Program, printed: str) -> str:
-    """Return a sentence with the number of the wrong line in the student's script.
-
-    If the number is not known, return "".
-    """
+    """Return a hint with the number of the wrong line in the student's script, if the number is known."""
     numbers = re.findall(rf'{re.escape(program.name)}", line (\d+)', printed)
-    return f"The error occurred in line {numbers[-1]} of {program.name}." if numbers else ""
+    return (
+        f"The error occurred in line {numbers[-1]} of {program.name}."
+        if numbers
+        else "An error has ended the program. Start the program in a terminal, and read the whole output."
+    )

@@ -118,8 +118,8 @@ def _place_of_call(context: CheckContext, commands: str) -> int:
         holds=found is not None,
         expected="rosservice call /getGeometry and three numbers",
         actual=" / ".join(others) or "no rosservice call",
-        hints="The call of the service is not complete. Write the name /getGeometry, and one number "
-        "for each of the three sides."
+        hints="A part of the command that calls the service is missing. Write the name /getGeometry, and "
+        "one number for each of the three sides."
         if others
         else "The call of the service is missing. Write the rosservice command from step 8.",
     )

@@ -14,6 +14,7 @@ from course_pkg.checking import ANYTHING, CheckContext, part
 from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.shared.catkin_package import built
 from course_pkg.checking.shared.geometry import expect_geometry, random_boxes
+from course_pkg.checking.shared.served_by import require_still_served
 
 SERVER = Program("scripts/server.py", "SERVER_NODE", "/getGeometry")
 FILE = MY_GEOMETRY.path(SERVER.file)
@@ -51,6 +52,7 @@ def the_server(context: CheckContext) -> None:
         for box in random_boxes(context):
             _answers(context, measure, *box)
         length, width = context.random.numbers(2, 0.5, 9.0)
+        require_still_served(context, name)
         _answers(context, measure, length, width, 0.0)
 
 

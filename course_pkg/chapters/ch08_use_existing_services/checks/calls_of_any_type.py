@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+
 from course_pkg.chapters.ch08_use_existing_services.checks.example_calls import ExampleCall, example_calls
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
@@ -9,10 +11,20 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.result import Result
 
-IS_MESSAGE = """
-def is_message(function, *args):
-    return hasattr(function(*args), "_slot_types")
-"""  # A check receives a message as a dict, so only code in the kernel can distinguish a message from a dict.
+SERIALISED = """
+import io
+
+
+def serialised(function, *args):
+    response, data = function(*args), io.BytesIO()
+    if hasattr(response, "_slot_types"):
+        response.serialize(data)
+    return list(data.getvalue())
+"""  # A check receives a message as a dict, but code in the kernel can serialise only a message.
+WRONG_TYPE = (
+    "Your function used a wrong type for this service. In each call, get the class of the "
+    "service's type with get_service_class_by_name."
+)
 ERRORS = [
     (
         matches("'str' object has no attribute '_request_class'"),
@@ -39,11 +51,7 @@ ERRORS = [
         "This service had a different type in an earlier call. Get the class of the type again in each call.",
     ),
     (matches("KeyError: 0"), "The second argument of fill_message_args has to be a list. Write [fields]."),
-    (
-        matches("md5sums do not match"),
-        "Your proxy has the wrong type for this service. In each call, get the class of the "
-        "service's type with get_service_class_by_name.",
-    ),
+    (matches("md5sums do not match"), WRONG_TYPE),
 ]
 UNKNOWN_TYPE = (
     "Your function found no type for this service. Get the class from the server with "
@@ -80,19 +88,23 @@ def call_of_any_type(context: CheckContext) -> None:
     former = context.serve(name, "std_srvs/Trigger", lambda _: {"success": True})
     context.run("call_any", name, {}, hints=ERRORS).returned()
     former.leave()
-    server = context.serve(name, "std_srvs/SetBool", lambda _: {"success": True})
+    answer = context.service_class("std_srvs/SetBool")._response_class(True, context.random.word())
+    server = context.serve(name, "std_srvs/SetBool", lambda _: answer)
     strays = context.random.shuffled(["dat", context.random.word()])
     for fields, stray in zip(({}, {"data": True}), strays, strict=True):
         wrong = context.run("call_any", name, {**fields, stray: True})
         _is_an_error(context, wrong, server, stray)
-    context.prepare(IS_MESSAGE)
+    context.prepare(SERIALISED)
     whole = context.run(
-        "is_message", Its("call_any"), name, {"data": True}, worded="call_any()", hints=ERRORS
-    )
-    context.expect(
+        "serialised", Its("call_any"), name, {"data": True}, worded="call_any()", hints=ERRORS
+    ).returned()
+    data = io.BytesIO()
+    answer.serialize(data)
+    context.require(
         "call_any() returns the response",
+        holds=whole == list(data.getvalue()),
         expected="a response",
-        actual="a response" if whole.returned() else "an object of a different type with the same values",
+        actual="an object of a different type, or with other values",
         hints="The function returned a dict or a similar object. Return the object that the proxy returns.",
     )
 
@@ -146,7 +158,8 @@ def _calls(context: CheckContext, example: ExampleCall) -> None:
     server = context.serve(name, example.kind, lambda _: example.answer)
     unfilled = NESTED if "camera_info" in example.fields else FLAT
     no_entry = matches(rf"^KeyError: '(/?{name[1:]}|{example.kind})'")
-    hints = [(no_entry, UNKNOWN_TYPE), *ERRORS, (ANYTHING, unfilled)]
+    wrong_type = matches("No field name|md5sums do not match")
+    hints = [(no_entry, UNKNOWN_TYPE), (wrong_type, WRONG_TYPE), *ERRORS, (ANYTHING, unfilled)]
     returned = context.run("call_any", name, example.fields, hints=hints).returned()
     context.expect(
         "the service is called once", expected=1, actual=len(server.requests), hints=CALLED_WRONGLY

@@ -6,7 +6,7 @@ from course_pkg.checking import ANYTHING, CheckContext, Refuse, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.peers.service_calls import Service
-from course_pkg.checking.shared.served_by import require_served_by_notebook
+from course_pkg.checking.shared.served_by import require_served_by_notebook, require_still_served
 
 LAMP = "/on_off"
 KIND = "course_pkg/ServiceExample"
@@ -56,6 +56,7 @@ def translate(context: CheckContext) -> None:
         try_lamp = _obeys if obeys else _disobeys
         try_lamp(context, panel, context.random.choice([True, False]))
     context.fulfilled(COMPARED)
+    require_still_served(context, "/lamp")
     context.absent(LAMP)
     data = context.random.choice([True, False])
     _fails(context, panel, data, "no server offers /on_off", "unavailable", "timeout exceeded")

@@ -30,6 +30,10 @@ ENDED = (
     "The list contains a service that has ended since the last call of your function. Get the types of all "
     "services in each call."
 )
+ABSENT = (
+    "Your list contains names of services that do not exist now. Get the names from the master, in each call "
+    "of the function."
+)
 LATE = "Your function did not find a new service. Get the list of services in each call of the function."
 ERRORS = [
     (matches("ROSServiceIOException"), DEAD),
@@ -131,7 +135,11 @@ def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], en
         holds=not extra,
         expected=f"a list without {', '.join(extra)}",
         actual=names,
-        hints=ENDED if extra == [ended] else _why_wrong({types.get(name) for name in extra}, kind),
+        hints=ENDED
+        if extra == [ended]
+        else ABSENT
+        if all(name.startswith("/") and name not in types for name in extra)
+        else _why_wrong({types.get(name) for name in extra}, kind),
     )
     context.require(
         "the list contains every service of the type",

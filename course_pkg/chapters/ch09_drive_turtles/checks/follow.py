@@ -15,7 +15,7 @@ from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import (
 )
 from course_pkg.chapters.ch09_drive_turtles.checks.velocities import TWIST
 from course_pkg.checking import ANYTHING, CheckContext, Refuse, part
-from course_pkg.checking.assertions import Condition, first_unlike
+from course_pkg.checking.assertions import Condition, first_unlike, same
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.peers.scripted_server import Act, ScriptedServer
 from course_pkg.checking.peers.subscription import Subscription
@@ -34,7 +34,9 @@ TOO_LATE = (
 WHERE = "Publish only on the topic /NAME/cmd_vel. NAME is the name of the turtle in the response of /spawn."
 ENDED = "The node ended after the calls, so it receives no messages. Call rospy.spin() at the end."
 ENDING = 0.6  # A program without spin() ends within this time in s.
-COUNT = 20  # COUNT is the number of velocities that the check publishes.
+COUNT = 20  # COUNT is the number of velocities of which the program must publish each one.
+RAPID = 0.005  # After these, the check publishes many velocities; the time between two of them is RAPID s.
+LAST = 10.0  # On a busy machine, the program may need this additional time in s for the last velocity.
 STOPS = (
     "if a service is missing for 5 s or refuses a call, the program makes no further call and ends "
     "with exit status 1"
@@ -139,6 +141,8 @@ def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> 
     called(2, LATER)
     driver.serve("toggle_forward", "change_speed")
     called(len(ORDER), LIMIT)
+    # A program that waited until the service was available has called a service with another name.
+    waited = bool(driver.calls) and time.monotonic() - driver.called > LATER + 1
     done = running.status
     actual = ", ".join(f"/{name}" for name in driver.calls)
     if not actual:
@@ -148,7 +152,7 @@ def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> 
         holds=driver.calls == list(ORDER),
         expected=", ".join(f"/{name}" for name in ORDER),
         actual=actual,
-        hints=_why_not_called(driver.calls, running, ended=done is not None),
+        hints=_why_not_called(driver.calls, running, ended=done is not None and not waited),
     )
     context.expect(
         "the program spawns MyTurtle at x = 3, y = 3, theta = 0",
@@ -234,6 +238,25 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
         expected=[],
         actual=[name for name in topics if name.startswith(driver.world.name("")) and name not in own],
         hints=WHERE,
+    )
+    _the_last(context, driver, subscription)
+
+
+def _the_last(context: CheckContext, driver: Driver, subscription: Subscription) -> None:
+    """Publish a random number of velocities at a high rate; the program must publish the last one."""
+    count = context.random.integer(150, 250)
+    velocities = [_velocity(number / 100, 0.0, 0.0) for number in range(1, count + 1)]
+    topic = driver.world.name("turtle1/cmd_vel")
+    context.publish(topic, TWIST, velocities, every=RAPID, once=True).finish(LAST)
+    context.require(
+        "the program publishes each velocity once",
+        holds=subscription.until(lambda arrivals: same(velocities[-1], arrivals[-1].fields, 1e-6), LAST),
+        expected=f"the last of {count} velocities",
+        actual="another velocity",
+        hints=(
+            "The program stopped after some velocities. In the callback, publish each message, for any "
+            "number of messages."
+        ),
     )
 
 

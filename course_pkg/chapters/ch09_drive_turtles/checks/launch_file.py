@@ -188,21 +188,30 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
     worded = f"roslaunch --args /NODE {file.path} addturtle:=true, for each node"
     done = copy.run(each, within=20.0, worded=worded)
     # roslaunch prints a traceback; its last line contains the name of the exception and the message.
-    missing = re.findall(r"^(\w+: )[\w.]+\.(\w+(?:Exception|NotFound): .*)", done.out, re.MULTILINE)
-    own = [
-        rf"^{name}: (\w+=\S* )*/\S*{file.package}/scripts/{program.command}( |$)"
-        for name, program in zip(both[1:], (file.driver, file.second), strict=True)
-    ]
+    missing = re.findall(r"^(\w+),\S*: [\w.]+\.(\w+(?:Exception|NotFound): .*)", done.out, re.MULTILINE)
     context.require(
         "roslaunch finds the program of each node",
-        holds=not missing and all(re.search(line, done.out, re.MULTILINE) for line in own),
+        holds=not missing,
         expected=f"three programs, two of them in {file.package}",
-        actual="".join(missing[0]) if missing else telling_line(done.out),
+        actual=": ".join(missing[0]) if missing else "",
         hints=(
             'roslaunch does not find a program. In the <node> tag, set "pkg" to the package and '
             '"type" to the file name of the program.'
         ),
     )
+    for name, program in zip(both[1:], (file.driver, file.second), strict=True):
+        started = _started_as(done.out, name)
+        own = rf"(\w+=\S* )*/\S*{file.package}/scripts/{program.command}( |$)"
+        context.require(
+            "roslaunch finds the program of each node",
+            holds=any(re.match(own, line) for line in started),
+            expected=f"{program.command} of {file.package} for /{name.partition(',')[0]}",
+            actual=started[0] if started else telling_line(done.out),
+            hints=(
+                'A node starts a wrong program. In its <node> tag, set "pkg" to the name of your package '
+                'and "type" to the file name of your own program, and do not include another launch file.'
+            ),
+        )
     for name in ("turtlesim", DRIVER):
         one = _started_as(done.out, f"{name},")
         if one != _started_as(done.out, f"{name},addturtle:=true"):

@@ -96,6 +96,8 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
         context.fulfilled(CHANGED)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream)
+        for _ in range(context.random.integer(40, 60)):
+            change(rate=rate)
         toggle()
         context.expect(
             "the response contains the rate before the call",

@@ -27,8 +27,8 @@ AT_FIRST: Hints = [
 TOGGLED: Hints = [
     (
         STRAIGHT,
-        "After the call, the turtle still goes straight ahead. In the loop, read the variable that the "
-        "handler changes.",
+        "After the call, the turtle still goes straight ahead. In the handler, change the variable that "
+        "the loop reads. In Python, a handler that changes a global variable needs a `global` line.",
     ),
     (
         (1.0, 1.0),
@@ -38,6 +38,14 @@ TOGGLED: Hints = [
         ),
     ),
     (ANYTHING, "The velocity is wrong while the turtle turns. Set linear.x to 0.0 and angular.z to 1.0."),
+]
+TOGGLED_AGAIN: Hints = [
+    (
+        STRAIGHT,
+        "The first call changed the direction, but a later call did not change it. Change the direction "
+        "in each call, for any number of calls.",
+    ),
+    *TOGGLED,
 ]
 BACK: Hints = [
     (
@@ -101,7 +109,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.becomes(STRAIGHT, "before the first call, the turtle goes straight ahead at 1.0 m/s", AT_FIRST)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream, context.random.integer(1, 2))
-        _counts_each_call(toggle, stream, 2 * context.random.integer(8, 20) + 1)
+        _counts_each_call(toggle, stream, 2 * context.random.integer(25, 40) + 1)
         stream.only(STRAIGHT, TURNING)
         context.fulfilled(TOGGLED_BY_CALL)
         stream.has_rate(
@@ -123,15 +131,15 @@ def _counts_each_call(toggle: Service, stream: Stream, many: int) -> None:
     stream.becomes(STRAIGHT, NEXT_CALL, BACK)
     for _ in range(many):
         toggle()
-    stream.becomes(TURNING, ONE_CALL, TOGGLED)
+    stream.becomes(TURNING, ONE_CALL, TOGGLED_AGAIN)
 
 
 def toggles_the_stream(
     toggle: Service, stream: Stream, times: int = 1, straight: tuple[float, float] = STRAIGHT
 ) -> None:
     """Toggle the direction to turning and back to straight ahead; `times` is the number of repetitions."""
-    for _ in range(times):
+    for before in range(times):
         toggle()
-        stream.becomes(TURNING, ONE_CALL, TOGGLED)
+        stream.becomes(TURNING, ONE_CALL, TOGGLED_AGAIN if before else TOGGLED)
         toggle()
         stream.becomes(straight, NEXT_CALL, BACK)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from course_pkg.chapters.ch07_build_a_package.checks.program import (
     Program,
@@ -12,8 +13,11 @@ from course_pkg.chapters.ch07_build_a_package.checks.program import (
     is_executable,
 )
 from course_pkg.checking import CheckContext
+from course_pkg.checking.assertions import Condition
 from course_pkg.checking.shared.catkin_package import BuiltPackage, Package
 
+# Pairs of a condition on the error message of a call, and a hint.
+Pairs: TypeAlias = "Sequence[tuple[Condition, str]]"
 NAME = "my_turtles"
 MANIFEST = """\
 <?xml version="1.0"?>
@@ -36,13 +40,15 @@ class TurtleProgram:
 
     `file` is the path of the program in the package. `command` is the argument of rosrun that names the
     program. The function `prepare` asserts that the file is a program, and returns a copy of the package.
-    rosrun can start the program from this copy.
+    rosrun can start the program from this copy. `errors` contains hints for calls of the program's services
+    that fail.
     """
 
     package: Package
     file: str
     command: str
     prepare: Callable[[CheckContext, TurtleProgram], BuiltPackage]
+    errors: Pairs = ()
 
     @property
     def path(self) -> str:

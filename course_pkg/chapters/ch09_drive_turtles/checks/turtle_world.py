@@ -6,9 +6,8 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram
-from course_pkg.checking import CheckContext
-from course_pkg.checking.assertions import Hints
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import Pairs, TurtleProgram
+from course_pkg.checking import CheckContext, matches
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.result import Finished
@@ -26,6 +25,12 @@ SIMULATOR = "simulator"
 SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")
 TOPICS = ("turtle1/cmd_vel", "turtle1/pose", "MyTurtle/cmd_vel", "MyTurtle/pose")
 LOGGERS = ("/get_loggers", "/set_logger_level")  # Every node has these services.
+
+ENDED = (
+    matches("unavailable"),
+    "This service was available at first, but it is not available any more. Keep the program running, and "
+    "do not shut the service down.",
+)
 
 
 class World:
@@ -77,10 +82,11 @@ class World:
         line = f"rosrun turtlesim turtlesim_node __ns:={self._space} __name:={SIMULATOR}"
         return self._copy.start(line, worded="rosrun turtlesim turtlesim_node")
 
-    def service(self, relative: str, kind: str, hints: Hints = ()) -> Service:
+    def service(self, relative: str, kind: str, hints: Pairs = ()) -> Service:
         """Return a proxy that calls a service of the student's program."""
         self.examine()
-        return self._context.service(self.name(relative), kind, hints=hints, timeout=5.0)
+        pairs = [*hints, ENDED, *self._program.errors]
+        return self._context.service(self.name(relative), kind, hints=pairs, timeout=5.0)
 
     def appears(self, relative: str, within: float = STARTING) -> bool:
         """Wait until the service `relative` is registered, for at most the time `within` (s).
@@ -170,8 +176,9 @@ def why_it_ended(done: Finished) -> str:
             "this error message: in Python, they show where in your code the error occurred."
         )
     return (
-        "The program reached its last line and ended. Publish in a loop that runs until the node is "
-        "shut down."
+        "The program reached its last line and ended. Use a loop that runs until the node is shut down. "
+        "If the program publishes nothing, wait with rospy.spin() (in C++: ros::spin(), or "
+        "ros::waitForShutdown() with an AsyncSpinner)."
     )
 
 

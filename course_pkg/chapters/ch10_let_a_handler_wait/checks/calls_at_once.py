@@ -21,8 +21,11 @@ LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
 # The student's function must return within this time in s after the last response. If a function sleeps for a
 # fixed time instead of joining its threads, it can take longer.
 PROMPT = 0.3
-# In the first run, each call takes this time in s. If the student's function returns too late, the check adds
-# a run with longer calls.
+# In one run, two calls take a random time between these limits (s). The time is longer than two joins with a
+# timeout of 1 s.
+SHORTEST, LONGEST = 2.2, 2.8
+# If the student's function returns too late, the check adds a run in which each call takes this additional
+# time in s.
 LONGER = 1.0
 
 # This code reports each call of a persistent proxy to the check. The thread that makes the call also sends
@@ -154,16 +157,18 @@ ERRORS = [
 def calls_at_once(context: CheckContext) -> None:
     """Run the student's function with few and with many clients; the server waits for all of their calls.
 
-    The calls of the first run take longer. Therefore, a function that uses join() with a short timeout
-    returns too early.
+    In a run with two clients, the calls take longer. Therefore, a function that uses join() with a short
+    timeout returns too early. The order of the runs is random.
     """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:
-        counts = [context.random.integer(3, 4), context.random.integer(24, 36)]
-        late = max([_round(context, count, hold) for count, hold in zip(counts, (LONGER, 0.0), strict=True)])
+        few = context.random.integer(3, 4)
+        slow = (2, context.random.number(SHORTEST, LONGEST))
+        runs = context.random.shuffled([slow, (few, 0.0), (context.random.integer(24, 36), 0.0)])
+        late = max([_round(context, count, hold) for count, hold in runs])
         if late > PROMPT:
-            _round(context, counts[0], late + LONGER)
+            _round(context, few, late + LONGER)
     finally:
         context.run("proxy_watch.end")
 
@@ -266,7 +271,8 @@ def _returned(context: CheckContext, words: list[str], found: Json) -> None:
             ),
             (
                 lambda actual: isinstance(actual, list) and len(actual) < len(words),
-                "Not all messages are in the list. Join every thread before you return the list.",
+                "Not all messages are in the list. Before you return the list, call join() of every thread "
+                "without a timeout.",
             ),
             (
                 lambda actual: isinstance(actual[0], dict),

@@ -129,6 +129,13 @@ def _measures(context: CheckContext, client: Client, assertion: str, volume: Jso
                 (lambda actual: not isinstance(actual, dict)),
                 "The method returned only a part of the response. Return the whole response of the proxy.",
             ),
+            (
+                ANYTHING,
+                (
+                    "The server sent a different response to this call. Return the response to this call, "
+                    "even after a broken connection, and not a stored response."
+                ),
+            ),
         ],
     )
 

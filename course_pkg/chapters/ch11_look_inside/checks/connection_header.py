@@ -21,10 +21,18 @@ from course_pkg.waiting import wait_until
 
 # `type(b"")` is the class of bytes, even if the student has defined another class with the name "bytes".
 TYPED_HEADER = """
-def typed_header(pack_header, fields):
+import socket
+
+
+def typed_header(pack_header, fields, name):
     packed = pack_header(fields)
-    return [packed, type(packed) in (type(b""), bytearray), type(packed).__name__]
-"""
+    sent = type(packed) in (type(b""), bytearray)
+    if sent:
+        with socket.socket(socket.AF_UNIX) as sock:
+            sock.connect("\\0" + name)
+            sock.sendall(packed)
+    return [packed, sent, type(packed).__name__]
+"""  # The check receives bytes as a list of numbers, but only bytes can be sent through a socket.
 YOUR_END = """
 import socket
 
@@ -111,9 +119,12 @@ def packed_header(context: CheckContext) -> None:
         ("two fields", {"type": f"my/{word()}", "message_definition": word(300)}),
     ):
         assertion = f"{what}: the function returns a TCPROS header"
-        packed, sent, kind = context.run(
-            "typed_header", Its("pack_header"), fields, hints=ERRORS, worded="pack_header()"
-        ).returned(list)
+        with Receiver() as receiver:
+            its = Its("pack_header"), fields, receiver.name
+            packed, sent, kind = context.run(
+                "typed_header", *its, hints=ERRORS, worded="pack_header()"
+            ).returned(list)
+            received = receiver.received() if sent is True else b""
         # TCPROS allows any order of the fields.
         orders = [dict(order) for order in permutations(fields.items())]
         expected = [list(_packed(order)) for order in orders]
@@ -125,7 +136,7 @@ def packed_header(context: CheckContext) -> None:
         )
         context.require(
             assertion,
-            holds=sent is True,
+            holds=sent is True and packed == list(received),
             expected="bytes",
             actual=f"a {kind} that is not bytes" if kind == "bytes" else kind,
             hints=(
@@ -200,8 +211,8 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed({name: value for name, value in fields.items() if value}),
-            "A field with an empty value is missing. Write this field, too: write its name and the "
-            "equals sign.",
+            "Your function left out a field, because its value is empty. Write its name and the equals "
+            "sign, too.",
         ),
         (
             _packed(fields, code="latin-1", count=len),
@@ -297,6 +308,36 @@ TAKEN = (
 
 
 CLOSED = "The function closed the socket. Leave the socket open, because the caller still uses it."
+
+
+class Receiver:
+    """Receives the bytes that the kernel sends through one connection."""
+
+    def __init__(self) -> None:
+        self.name = f"course-{secrets.token_hex(8)}"
+        self._listener = socket.socket(socket.AF_UNIX)
+        self._listener.bind(f"\0{self.name}")
+        self._listener.listen(1)
+        self._listener.settimeout(CONNECTING)
+
+    def __enter__(self) -> Receiver:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._listener.close()
+
+    def received(self) -> bytes:
+        """Return all bytes of the connection, or no bytes if the kernel did not connect."""
+        data = b""
+        with suppress(OSError):
+            sock, _ = self._listener.accept()
+            with sock:
+                sock.settimeout(CONNECTING)
+                while chunk := sock.recv(4096):
+                    data += chunk
+        return data
 
 
 class OtherEnd:

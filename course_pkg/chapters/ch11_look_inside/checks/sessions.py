@@ -122,7 +122,10 @@ def _wrong_total(amount: int, calls: int, everything: int) -> Hints:
         ),
         (
             everything,
-            ("The response contains the total of all sessions. Store one total for each session in a dict."),
+            (
+                "The total also contains the amounts of other sessions. Store one total for each session in "
+                'a dict, with the header field "session" as the key.'
+            ),
         ),
         (
             0,
@@ -258,6 +261,8 @@ def _why_refused(message: str, refused: str) -> str:
         return (
             "At the first call of a session, the dict has no total for this session. Start with the total 0."
         )
+    if "cannot process request: service [" in message:
+        return "Your handler called a different service, and this call failed. Calculate the total yourself."
     if "cannot process request" in message:
         return refused
     return (

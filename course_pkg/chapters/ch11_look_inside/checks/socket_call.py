@@ -82,6 +82,10 @@ MISTAKES = {
     "a request of 16 bytes": NO_LENGTH,
     "short request": NO_LENGTH,
 }
+ONLY_CALLERID = (
+    "Your function read a field that the header of this server does not have. A server has to send only the "
+    "field callerid, so read no other field than `error`."
+)
 SLOWLY = (
     "The function fails if the bytes arrive one after the other. Use `receive()` to read all bytes, "
     "including the first byte and the lengths."
@@ -251,7 +255,10 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
         holds=conversation.mistake not in MISTAKES,
         expected="a connection header, and then a request",
         actual=conversation.mistake,
-        hints=MISTAKES.get(conversation.mistake, ""),
+        hints=[
+            (lambda _: result.error.startswith("KeyError"), ONLY_CALLERID),
+            (ANYTHING, MISTAKES.get(conversation.mistake, "")),
+        ],
     )
     return conversation
 

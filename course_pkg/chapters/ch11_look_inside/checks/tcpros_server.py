@@ -49,7 +49,8 @@ class TcprosServer:
     If `refusal` is not empty, the server sends this error message instead of a response. If `in_handshake` is
     True, the server sends the error message already in the connection header.
 
-    If `slowly` is True, the server sends each byte separately.
+    If `slowly` is True, the server sends each byte separately. Its header then has only the field callerid:
+    TCPROS requires no other field of a server, but the clients of ROS refuse such a header.
     """
 
     def __init__(
@@ -111,11 +112,9 @@ class TcprosServer:
             return
         if not (self._slowly or self._refusal):
             _nothing_yet(sock)
-        fields = {
-            "callerid": "/odd",
-            "md5sum": str(getattr(self._kind, "_md5sum", "")),
-            "type": "course_pkg/geometry",
-        }
+        fields = {"callerid": "/odd"}
+        if not self._slowly:
+            fields.update(md5sum=str(getattr(self._kind, "_md5sum", "")), type="course_pkg/geometry")
         self._send(sock, _sized(b"".join(_sized(f"{key}={value}".encode()) for key, value in fields.items())))
         conversation.sides = _sides(sock)
         if self._refusal:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 
-from course_pkg.checking import CheckContext, matches
+from course_pkg.checking import ANYTHING, CheckContext, matches
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.faulty_server import FaultyServer
 from course_pkg.checking.plain_values import Message
@@ -102,12 +102,23 @@ def pays_after(
         actual=result.returned(),
         hints=[
             (None, _why_given_up(words, result.took, len(till.arrivals) - arrived)),
+            (
+                ANYTHING,
+                (
+                    "pay() returned a number that the till did not send. Call only the till, and return the "
+                    "field `receipt` of its response."
+                ),
+            ),
         ],
     )
     context.expect(
         "at the end, the till has charged the payment exactly once",
         expected=1,
         actual=len(books.charged) - charged,
+        hints=(
+            "The till did not charge this payment exactly once. Return only a receipt that the till has "
+            "sent, and use the same id in each attempt."
+        ),
     )
     return len(requests)
 

@@ -24,7 +24,7 @@ DECISIVE = {
         "The two programs were built with different definitions. A second call does not change the "
         "definitions."
     ),
-    "speed": "The request sets a state. A second request has the same effect as the first request.",
+    "speed": "The request sets a state, such as a speed, so a second request changes nothing.",
     "payment": "Perhaps the till has already taken the money. The till recognises a repeated request.",
     "step": (
         "Perhaps the robot has already moved, and a second request moves it again. A call of /where "

@@ -71,7 +71,8 @@ STUCK = (
 )
 CHARGED = "Charge a new request. If the same request comes again, send the same receipt."
 FAILED = (
-    "If the purse fails, charge the request when the client sends it again. Refuse a request without an id."
+    "If the purse raises an error, try the payment again when the client repeats the request. "
+    "Refuse a request without an id."
 )
 
 

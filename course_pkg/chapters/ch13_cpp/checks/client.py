@@ -205,6 +205,11 @@ def _pauses_between_calls(context: CheckContext, *runs: list[float]) -> None:
 
 def _why_not_third(finished: Finished, count: int) -> str:
     if count == 1 and finished.status == 0:
+        if any(_numbers(finished.out)):
+            return (
+                "The server refused the call, but the program printed a volume that the server did not send. "
+                "Do not calculate the volume: call the server again."
+            )
         return (
             "call() returned false, but the program printed an empty response. Test the return "
             "value of call() before you print the volume."
@@ -347,8 +352,8 @@ def _prints(context: CheckContext, finished: Finished, volume: float, assertion:
 def _why_not_printed(finished: Finished, numbers: list[float]) -> str:
     if finished.status == 0 and numbers:
         return (
-            "The server sent a different volume. Print box.response.volume, and do not calculate "
-            "the volume in the client."
+            "The printed volume is not the volume that the server sent. Print box.response.volume, and do "
+            "not calculate the volume in the client."
         )
     return (
         "The program does not print the volume, or it ends with a wrong exit status. Print "

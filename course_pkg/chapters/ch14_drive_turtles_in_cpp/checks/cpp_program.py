@@ -7,7 +7,7 @@ from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import (
     TurtleProgram,
     runnable_copy,
 )
-from course_pkg.checking import CheckContext
+from course_pkg.checking import CheckContext, matches
 from course_pkg.checking.shared.catkin_package import BuiltPackage, Package
 from course_pkg.checking.shared.roscpp_program import compile_roscpp
 from course_pkg.errors import ToolMissing
@@ -17,13 +17,18 @@ NAME = "my_turtles_cpp"
 # For the compilation, -t limits the CPU time in s, and -f limits the size of a file in KiB. One source file
 # takes 4 s.
 LIMITS = "ulimit -t 40 -f 100000"
-COMPILING = 90.0  # The compilation may take up to this time in s; it takes 4 s on an idle machine.
+NO_SPIN = (
+    matches("TimesUp"),
+    "The call got no response. In each round of the loop, call ros::spinOnce(), because it runs the handler. "
+    "Do not wait in the handler.",
+)
+COMPILING = 90.0  # The time limit of the compilation in s; the compilation takes 4 s on an idle machine.
 
 
 def cpp(name: str) -> TurtleProgram:
     """Return the C++ program `name`, such as "spawn_turtle", of the package of chapter 14."""
     package = Package(NAME, {"package.xml": MANIFEST.format(name=NAME)})
-    return TurtleProgram(package, f"src/{name}.cpp", name, _compiled)
+    return TurtleProgram(package, f"src/{name}.cpp", name, _compiled, (NO_SPIN,))
 
 
 def _compiled(context: CheckContext, program: TurtleProgram) -> BuiltPackage:

@@ -23,6 +23,10 @@ HANGS = (
     "The handler of /report waits for /battery, but no free thread can execute the handler of "
     "/battery. Use more threads, or a separate queue for /battery."
 )
+NOT_SPUN = (
+    "No thread executes the handler of /battery. Start a spinner for the queue that contains the calls of "
+    "/battery."
+)
 
 START = """%%writefile {path}
 #include <ros/ros.h>
@@ -183,6 +187,7 @@ def _reports(context: CheckContext, program: TurtleProgram, clients: int, too_fe
     world = World(context, program.prepare(context, program), program, services=SERVICES)
     with world.run(f"_level:={level}") as running:
         world.serves(running, *SERVICES)
+        world.service("battery", "std_srvs/Trigger", [(matches("TimesUp"), NOT_SPUN)])()
         _answers(context, world.service("report", "std_srvs/Trigger", _why(HANGS)), level)
         report = world.service("report", "std_srvs/Trigger", _why(too_few))
         for reply in _groups(report, clients):

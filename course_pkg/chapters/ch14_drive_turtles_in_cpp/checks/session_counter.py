@@ -14,7 +14,7 @@ from course_pkg.checking.plain_values import ServiceClass
 
 PROGRAM = cpp("session_counter")
 TRIGGER = "std_srvs/Trigger"
-WITHIN = 4.0  # WITHIN is the time limit in s for a call.
+WITHIN = 8.0  # WITHIN is the time limit in s for a call.
 COUNTED = "Count the calls of each session separately."
 
 
@@ -37,10 +37,10 @@ def count_sessions(context: CheckContext) -> None:
         world.serves(running, "count")
         service = context.service(world.name("count"), TRIGGER, timeout=WITHIN)
         first = context.random.word()
-        more = [context.random.word() for _ in range(context.random.integer(2, 8))]
+        more = [context.random.word() for _ in range(context.random.integer(3, 8))]
         sessions = [first, first.upper(), f"{first}{more[0]}", *more]
         counts = dict.fromkeys(sessions, 0)
-        for session in context.random.shuffled(sessions * 3):
+        for session in context.random.shuffled(sessions * 6):
             counts[session] += 1
             _counts(context, service.name, service.kind, session, counts)
         context.fulfilled(COUNTED)
@@ -83,7 +83,13 @@ def _counts(
                 str(sum(counts.values())),
                 ("The response contains the number of all calls. Store a separate count for each session."),
             ),
-            ("1", "In each call, the count starts at 0 again. Create the map outside the handler."),
+            (
+                "1",
+                (
+                    "The response to every call in this session is 1. Outside the handler, store a map with "
+                    "one count for each session, for sessions with any name."
+                ),
+            ),
             (
                 str(counts[session] - 1),
                 (

@@ -17,6 +17,7 @@ from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
 from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.plain_values import Message
 
 NAME = "customer_detector"
 SEEN, DETECT = "customer_seen", "detect_customer"
@@ -114,6 +115,8 @@ def the_detector(context: CheckContext) -> None:
         vision.show(False)
         _finds_nobody(context, detect, 0.0)
         _finds_nobody(context, detect, context.random.number(1.2, 1.5))
+        for _ in range(context.random.integer(40, 60)):
+            _is_nobody(context, detect(patience=0.0))
         context.fulfilled(WAITED)
         _serves_several_callers(context, detect, vision)
         context.fulfilled(SEVERAL)
@@ -136,16 +139,19 @@ def _finds(context: CheckContext, detect: Service, patience: float, hint: str, w
 
 
 def _finds_nobody(context: CheckContext, detect: Service, patience: float) -> None:
-    response = detect(patience=patience)
-    context.expect(
-        "without a customer, `found` is False", expected=False, actual=response.found, hints=REMEMBERED
-    )
+    _is_nobody(context, detect(patience=patience))
     context.require(
         "without a customer, the call takes `patience` seconds",
         holds=patience - EARLY < detect.took < patience + SLACK,
         expected=f"a response after {patience:g} s",
         actual=f"a response after {detect.took:.1f} s",
         hints=NO_WAIT if detect.took < patience else TOO_LONG,
+    )
+
+
+def _is_nobody(context: CheckContext, response: Message) -> None:
+    context.expect(
+        "without a customer, `found` is False", expected=False, actual=response.found, hints=REMEMBERED
     )
 
 

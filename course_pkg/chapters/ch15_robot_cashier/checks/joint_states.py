@@ -87,6 +87,11 @@ def joint_states(context: CheckContext) -> list[JointState]:
     return states
 
 
+def many_joint_states(context: CheckContext, count: int) -> list[JointState]:
+    """Return `count` valid joint states; their stamps are later than those of joint_states()."""
+    return [_joint_state(context, COUNT + number) for number in range(count)]
+
+
 def _joint_state(context: CheckContext, number: int) -> JointState:
     return JointState(
         secs=FIRST + number,

@@ -11,6 +11,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import (
     LARGE,
     JointState,
     joint_states,
+    many_joint_states,
 )
 from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, start_of
 from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, student_node
@@ -24,6 +25,8 @@ DETECT, RESET = "detect_customer", "till/reset"
 INTERFACE = Interface(publishes=[MIRRORED], subscribes=[ARM])
 PROMPT = 0.5  # PROMPT is the maximum time in s between a joint state and its mirror image on a busy machine.
 EVERY = 0.05  # EVERY is the time in s between two joint states.
+RAPID = 0.005  # At the end, the check publishes many joint states; the time between two of them is RAPID s.
+LAST = 10.0  # On a busy machine, the last of these mirror images may need this additional time in s.
 NOT_HEARD = (
     "The node does not subscribe to joint_states with the right type. Pass sensor_msgs/JointState to "
     "rospy.Subscriber."
@@ -34,6 +37,10 @@ OTHER_TIME = (
     "the header of the joint state."
 )
 LATE = "The mirror images arrive late. Publish each mirror image in the callback, without a wait or a pause."
+STOPPED = (
+    "The node stopped after some mirror images. In the callback, publish the mirror image of each valid "
+    "joint state, for any number of messages."
+)
 ZEROS = (
     "The node published zeros for an invalid joint state, so the arm would move to these positions. "
     "Publish nothing in this case."
@@ -60,6 +67,7 @@ def the_mirror(context: CheckContext) -> None:
         publisher.finish(10.0)
         _mirrors(context, subscription, states)
         _is_prompt(context, subscription, publisher.sent)
+        _mirrors_the_last(context, subscription, f"{space}/{ARM}")
 
 
 def _secs(arrival: Arrival) -> int:
@@ -101,6 +109,23 @@ def _is_prompt(context: CheckContext, subscription: Subscription, sent: list[flo
         expected="an image a few milliseconds after its joint state",
         actual=f"half of the images with a delay of more than {median:.1f} s",
         hints=LATE,
+    )
+
+
+def _mirrors_the_last(context: CheckContext, subscription: Subscription, topic: str) -> None:
+    """Publish a random number of valid joint states at a high rate; the node must mirror the last one.
+
+    A node may miss some of these joint states, because its queues can be short.
+    """
+    states = many_joint_states(context, context.random.integer(150, 250))
+    messages = [state.fields() for state in states]
+    context.publish(topic, JOINTS, messages, every=RAPID, once=True).finish(LAST)
+    context.require(
+        "the node mirrors every valid joint state once, in the right order",
+        holds=subscription.until(lambda arrivals: _secs(arrivals[-1]) == states[-1].secs, LAST),
+        expected=f"an image of the last of {len(states)} joint states",
+        actual="no image of the last joint state",
+        hints=STOPPED,
     )
 
 

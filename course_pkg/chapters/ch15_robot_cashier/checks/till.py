@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 
 from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, start_of
 from course_pkg.chapters.ch15_robot_cashier.checks.printer import Printer
@@ -148,6 +149,10 @@ def the_sum(context: CheckContext) -> None:
             prices[item] = cents
             _sets(context, till, item, cents, sum(prices.values()), hint)
             _totals(context, total, prices, FREE if not cents else COUNT, SUM)
+        for item, cents in _items(context, context.random.integer(40, 60)):
+            prices[item] = cents
+            _sets(context, till, item, cents, sum(prices.values()), NOT_ADDED)
+        _totals(context, total, prices, COUNT, SUM)
         context.fulfilled(SUMMED)
         amount = -context.random.integer(1, 900)
         item = context.random.word()
@@ -206,6 +211,10 @@ RESTARTED = (
     "The printer was started again, but the till still refuses an item. Create the proxy without "
     "persistent=True, because a closed connection of a persistent proxy is never opened again."
 )
+REPEATED = (
+    "The till called print_line again after the printer had refused the line. Call print_line only once for "
+    "each call of till/set."
+)
 ILLEGAL = (
     "The till printed a line for a refused item. Check for negative cents and an empty name before you print."
 )
@@ -234,7 +243,7 @@ def the_printed_till(context: CheckContext) -> None:
     Later, call till/set without a printer, and again with a new printer.
     """
     with running_till(context, TOTAL) as till:
-        total = till.service(context, TOTAL, TILL_TOTAL)
+        total = till.service(context, TOTAL, TILL_TOTAL, [(matches("TimesUp"), BROKEN)])
         (item, cents), (other, more), (third, rest) = _items(context, 3)
         _sets(context, till, item, cents, cents, NOT_ADDED)
         context.require(
@@ -287,6 +296,7 @@ def _refuses_without_print(
             item=name,
             cents=cents,
             hints=[
+                (partial(_printed_again, till.printer, before), REPEATED),
                 (matches("TimesUp"), BROKEN),
                 (matches("cannot process request"), REASONLESS),
                 (ANYTHING, NOT_REFUSED),
@@ -297,13 +307,15 @@ def _refuses_without_print(
             holds=till.printer.calls <= before + 1,
             expected="one call of print_line",
             actual=f"{till.printer.calls - before} calls",
-            hints=(
-                "The till called print_line again after the printer had refused the line. Call print_line "
-                "only once for each call of till/set."
-            ),
+            hints=REPEATED,
         )
         _totals(context, total, prices, COUNTED, COUNTED)
     till.printer.fault = ""
+
+
+def _printed_again(printer: Printer, before: int, error: object) -> bool:
+    """Return whether a call did not end, because the till called the printer several times."""
+    return "TimesUp" in str(error) and printer.calls > before + 1
 
 
 def _prints_no_illegal_item(context: CheckContext, till: Till) -> None:

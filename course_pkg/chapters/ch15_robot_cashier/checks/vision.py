@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass, field
 
 import rospy
@@ -20,6 +21,8 @@ BOOL = "std_msgs/Bool"
 DARK = 96
 # On a busy machine, the message after a frame may take up to this time in s; it usually takes 5 ms.
 ANSWER = 8.0
+RAPID = 0.005  # In a long series, the time between two frames is RAPID s.
+LAST = 10.0  # On a busy machine, the message for the last frame of the series may need this time in s.
 AGAIN = 0.03  # A wrong second message would arrive within this time in s.
 SILENT = 0.25  # A wrong message after a malformed frame would arrive within this time in s.
 
@@ -49,6 +52,10 @@ ENCODING = (
     'frame.encoding is not "mono8".'
 )
 EMPTY = "No point is dark, so this frame shows no customer. Publish False."
+STOPPED = (
+    "The node stopped after some frames. In the callback, publish a message for each valid frame, for any "
+    "number of frames."
+)
 NOTHING = (
     "The node published nothing for a valid frame. Check whether the callback reaches the line that "
     "publishes."
@@ -82,6 +89,7 @@ def the_vision(context: CheckContext) -> None:
         width, height = (10 * number for number in context.random.integers(2, 2, 5))
         for frame in _valid_frames(context, width, height):
             _shows(context, camera, seen, frame)
+        _shows_the_last(context, camera, seen, image_of(context, width, height, width * height))
         context.fulfilled(SHOWN)
         for what, malformed, hint in _malformed_frames(context, width, height):
             _leaves_out(context, camera, seen, malformed, what, hint)
@@ -204,6 +212,23 @@ def _shows(context: CheckContext, camera: Camera, seen: Subscription, frame: Fra
         expected=frame.customer,
         actual=seen.arrivals[before].fields["data"],
         hints=frame.hint,
+    )
+
+
+def _shows_the_last(context: CheckContext, camera: Camera, seen: Subscription, dark: Image) -> None:
+    """Send a random number of bright frames at a high rate, and then a frame that shows a customer."""
+    bright = image_of(context, dark.width, dark.height, 0)
+    count = context.random.integer(150, 250)
+    for _ in range(count):
+        camera.send(bright)
+        time.sleep(RAPID)
+    camera.send(dark)
+    context.require(
+        "the node publishes a message for a valid frame",
+        holds=seen.until(lambda arrivals: arrivals[-1].fields["data"], LAST),
+        expected=f"True, after {count} bright frames and a dark frame",
+        actual="no message for the last frame",
+        hints=STOPPED,
     )
 
 

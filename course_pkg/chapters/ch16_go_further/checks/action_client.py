@@ -38,8 +38,8 @@ BOUND = (
 )
 DURATION = "actionlib does not accept a plain number of seconds. Pass rospy.Duration(seconds)."
 UNSENT = (
-    "The goal did not arrive at the server, because the function sent it before the connection existed. Call "
-    "wait_for_server(rospy.Duration(2)) before send_goal."
+    "The server got no goal. Call wait_for_server(rospy.Duration(2)) and then send_goal: a goal that the "
+    "client sends before the connection exists is lost."
 )
 HOW_LONG = "The time limit is wrong. Use the argument `seconds`: wait_for_result(rospy.Duration(seconds))."
 NOBODY = (
@@ -230,8 +230,8 @@ def _too_late(context: CheckContext) -> None:
                 (
                     None,
                     (
-                        "The function returned None. Wait for the result again after cancel_goal(), "
-                        "because the robot sends a result after the cancellation."
+                        "The function returned None. After cancel_goal(), wait for the result again, and "
+                        "return the number for every final state, not only for SUCCEEDED."
                     ),
                 ),
             ],

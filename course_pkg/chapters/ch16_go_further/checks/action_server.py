@@ -74,6 +74,7 @@ def executed_goal(context: CheckContext) -> None:
     require_kernel(context, [node for publishers in status for node in publishers])
     _carries_out(context, client, feedback)
     _takes_long_for_a_long_thing(context, client)
+    _fetches_many(context, client)
     context.fulfilled(EXECUTED)
     _cancels(context, client, feedback)
     _fetches_nothing(context, client)
@@ -237,6 +238,28 @@ def _takes_long_for_a_long_thing(context: CheckContext, client: actionlib.Simple
         expected=2,
         actual=client.get_result().fetched,
         hints=COUNTED_ON,
+    )
+
+
+def _fetches_many(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
+    """Send a goal with a random number of things that the robot fetches quickly."""
+    things = context.random.integer(60, 120)
+    _sends(context, client, FetchGoal(things=things, seconds=0.001))
+    _ends_as(context, client, "the server executes a goal to its end", GoalStatus.SUCCEEDED)
+    context.expect(
+        "the result is the number of fetched things",
+        expected=things,
+        actual=client.get_result().fetched,
+        hints=[
+            (
+                lambda actual: actual < things,
+                (
+                    "The robot stopped before it had fetched all things. Fetch goal.things things, for any "
+                    "number of things."
+                ),
+            ),
+            (ANYTHING, COUNTED_ON),
+        ],
     )
 
 

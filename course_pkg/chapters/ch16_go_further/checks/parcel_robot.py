@@ -174,7 +174,7 @@ def _delivers(
         expected=f"about {PARCELS * EACH / PERIOD:.0f} values",
         actual=meanwhile,
         hints=(
-            "The battery sent no values during the delivery. Deliver the parcels in the function "
+            "The node published no charge during the delivery. Deliver the parcels in the function "
             "of the action, and publish the charge in another thread."
         ),
     )
