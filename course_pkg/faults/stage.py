@@ -109,7 +109,7 @@ class Stage:
         return seen
 
     def undo(self) -> None:
-        """End the fault, and wait until the graph is as before the fault; a second call has no effect."""
+        """End the fault, and wait until the graph has its earlier state; a second call has no effect."""
         self._end()
 
     def expect_visitor(self) -> None:

@@ -145,7 +145,7 @@ def test_the_state_is_bounded() -> None:
 
 
 def test_too_many_calls() -> None:
-    """If there are too many events, the timeline draws only the first events; a note says how many."""
+    """If there are too many events, the timeline draws only the first events; a note gives the numbers."""
     calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
     kept = state(recording(*calls, length=1001.0))
     assert len(kept["columns"]["kind"]) == MOST

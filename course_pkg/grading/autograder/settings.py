@@ -47,7 +47,7 @@ def read_settings(path: Path) -> Settings:
 
 
 def days_late(metadata: Path) -> float | None:
-    """Return how many days late the submission is, or None if `metadata` contains no usable times.
+    """Return the number of days by which the submission is late, or None without usable times in `metadata`.
 
     If the student has an extension, Gradescope's metadata contain the student's own deadline. Format:
     https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.

@@ -41,7 +41,7 @@ class Deadlines:
         return due is None or due + self.grace <= datetime.now(due.tzinfo)
 
     def days_late(self, student: str, chapter: str, submitted: datetime) -> float:
-        """Return how many days after the grace period the student submitted, or 0."""
+        """Return the number of days from the end of the grace period to the submission; at least 0."""
         due = self.due(student, chapter)
         if due is None:
             return 0.0

@@ -75,7 +75,7 @@ class LateTable:
     rows: Mapping[tuple[str, str], float]
 
     def days(self, student: str, chapter: str) -> float:
-        """Return how many days late a student's submission for a chapter is."""
+        """Return the number of days by which a student's submission for a chapter is late."""
         return self.rows.get((student, chapter), self.rows.get((student, ""), 0.0))
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:

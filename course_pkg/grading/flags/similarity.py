@@ -32,11 +32,11 @@ FEW = 3  # Even in a small class, code is compared if at most this many students
 SMALL = 30  # For a smaller class, the weights are computed as for a class of this size.
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
-# One answer is enough to flag a pair if the two answers have at least OWN_CODE features of the code in common
-# that at most one other student has.
+# A rare feature of the code occurs in the answers of the pair, and in the answer of at most one other
+# student. One answer is enough to flag a pair if the two answers share at least `OWN_CODE` rare features.
 OWN_CODE = 15
-# One answer is also enough to flag a pair if the two answers have at least OWN_WORDS comments, strings or
-# names in common that at most one other student has.
+# One answer is also enough to flag a pair if the two answers share at least `OWN_WORDS` comments, strings or
+# names, and at most one other student has them.
 OWN_WORDS = 3
 MARGIN = 1.0  # The margin is in bits.
 NOTHING = Fingerprint(0)

@@ -4,8 +4,8 @@ An instructor or a platform has put the student's name into the name of a folder
 
 A file that an instructor has collected has the path SUBMISSIONS/<student>/NN_topic.ipynb; subfolders are
 allowed. A file from Moodle has the path Full Name_12345_assignsubmission_file_/NN_topic.ipynb, or is one file
-without a folder. A file from Canvas has the name lastfirst_LATE_123_456_NN_topic-2.ipynb, in which LATE means
-after the deadline, and -2 means the third attempt. A file from Gradescope has the path
+without a folder. A file from Canvas has the name lastfirst_LATE_123_456_NN_topic-2.ipynb, in which LATE marks
+a late submission, and -2 means the third attempt. A file from Gradescope has the path
 assignment_9_export/submission_456/NN_topic.ipynb, and submission_metadata.yml contains the students' names. A
 file from nbgrader has the path submitted/<student>/<assignment>/NN_topic.ipynb.
 

@@ -18,8 +18,8 @@ from typing import NoReturn
 from course_pkg.sandbox.linux import namespaces
 
 ENTER = "nsenter"  # nsenter is a program of util-linux.
-# A graph has at most two file descriptors. For each number of file descriptors, this dict contains the kinds
-# of namespaces to which they refer.
+# A graph has at most two file descriptors. This dict maps the number of file descriptors to the kinds of
+# their namespaces.
 KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}
 
 

@@ -147,7 +147,7 @@ def _returns_no_late_response(context: CheckContext, name: str, adder: Adder) ->
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
     """Call a server that responds, refuses or does not respond, in a random order.
 
-    The time limit is always the same, so the check detects a function that derives its result
+    The time limit is always the same, so the check detects a function that computes its result
     from the time limit.
     """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
