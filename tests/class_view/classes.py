@@ -36,7 +36,7 @@ def result(name: str, check: str = "05.1", verdict: str = "not yet", **more: obj
 
 @contextmanager
 def serving(folder: Path, students: int = 3, identity: Identity | None = None) -> Iterator[str]:
-    """Run a class view in a thread; yield its address without the token and without a slash at its end."""
+    """Run a class view in a thread; yield the view's address without the token and the final slash."""
     tokens = Tokens(folder / FILE)
     tokens.complete({f"s{number:02}": f"Student {number:02} {NASTY}" for number in range(1, students + 1)})
     settings = Settings("Dr. Ada", 30.0, tokens.names)

@@ -49,7 +49,7 @@ def test_the_usual_pen_until_more_is_known() -> None:
 
 
 def test_a_colour_that_is_read_twice_at_low_speed_is_the_pen_colour() -> None:
-    """If the sensor of a slow turtle reads a colour twice, the recording uses it as the pen colour."""
+    """If the sensor of a slow turtle reads the same colour twice, this colour becomes the pen colour."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, RED), at(3.2, RED), at(3.3, RED))
     assert [recording.palette[row[5]] for row in recording.rows[-2:]] == [RED, RED]
 

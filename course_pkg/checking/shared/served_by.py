@@ -53,7 +53,7 @@ def require_served_by_program(
 def require_still_served(context: CheckContext, *services: str) -> None:
     """Wait for a moment, and assert that each service still exists.
 
-    Use this assertion before the last call of a check: a server must not end some time after a call.
+    Use this assertion before the last call of a check: a server must still run some time after a call.
     """
     time.sleep(PAUSE)
     seen = context.look()

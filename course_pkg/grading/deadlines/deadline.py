@@ -17,7 +17,7 @@ DAY = 86_400.0  # The time is in s.
 
 @dataclass(frozen=True)
 class Deadlines:
-    """The deadlines of chapters; the deadline with the key "" applies to each chapter that has no key."""
+    """The deadlines of chapters; the deadline with the key "" applies to all other chapters."""
 
     by_chapter: Mapping[str, datetime]
     grace: timedelta = timedelta()
