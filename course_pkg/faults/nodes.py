@@ -265,8 +265,8 @@ NODES: tuple[Fault, ...] = (
         diagnosis="A callback prints, and its output appears below the cell that runs at that time.",
         remedy="Let callbacks store the messages, and print them in a separate cell.",
         reason=(
-            "Callbacks run on threads of rospy. A notebook shows their output below the cell that "
-            "runs at that time, or below the last cell that ran."
+            "Callbacks run on threads of rospy. If a callback prints a text, the notebook shows the "
+            "text below the cell that is running then, or below the last cell that ran."
         ),
     ),
 )

@@ -256,9 +256,9 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="The handler holds a lock while it calls a service that needs the same lock.",
         remedy="Release the lock before the call, or pass the data without a call.",
         reason=(
-            "The door's handler waits for the response of the bolt, and the bolt's handler waits for the "
-            "lock. A handler may call another service of its own node. But during this call, it must not "
-            "hold a lock that the other service needs."
+            "The door's handler holds the thread lock and waits for the response of the bolt. The bolt's "
+            "handler waits for the same thread lock. A handler may call another service of its own node. But "
+            "during this call, it must not hold a lock that the other service needs."
         ),
         unlike=("sleeps",),
     ),

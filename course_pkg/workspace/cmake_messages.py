@@ -92,7 +92,7 @@ def unknown_command(name: str, message: Message) -> Fault:
     if name.lower() in GENERATION:
         problem = (
             f"CMake does not know the command {name}. The package message_generation defines "
-            "this command, but the package was not found above this line."
+            "this command, but no find_package above this line contains this package."
         )
         remedy = "Write find_package(catkin REQUIRED COMPONENTS message_generation) above this line."
     elif name.lower() in CATKIN:

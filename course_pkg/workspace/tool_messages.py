@@ -70,7 +70,8 @@ FROM_BUILD: tuple[Row, ...] = (
         r'Package name "(?P<package>[^"]*)" does not follow naming conventions',
         "package.xml",
         "{package} is not a valid name for a package.",
-        "Use only lower-case letters, digits and _, without spaces. The first character has to be a letter.",
+        "In the name of the package, use only lower-case letters, digits and _. The first character has to "
+        "be a letter.",
     ),
     (
         r'Package version "(?P<version>[^"]*)" does not follow version conventions',
@@ -163,7 +164,8 @@ FROM_TOOLS: tuple[Row, ...] = (
         r"cannot import name '(?P<name>\w+)' from '(?P<module>[\w.]+)'",
         "",
         "The module {module} does not contain {name}.",
-        "Compare {name} with the name of the .srv file. Capital and small letters are different.",
+        "Compare {name} with the name of the .srv file. ROS and Python distinguish capital and small "
+        "letters.",
     ),
     (
         r"Couldn't find executable named (?P<name>\S+) below",

@@ -279,14 +279,14 @@ def test_lambda_as_a_handler_is_explained(message: str) -> None:
 
 # Each entry of `SAID` has a command that runs after the build, and a text that the explanation must contain.
 SAID = {
-    "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
+    "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "source devel/setup.bash"),
     "another Python": ("/usr/bin/python3 -S -c 'import numpy'", True, "#!/usr/bin/env python3"),
-    "not sourced: rospack": ("rospack find my_services", False, "Source devel/setup.bash"),
-    "not sourced: rossrv": ("rossrv show my_services/Box", False, "Source devel/setup.bash"),
+    "not sourced: rospack": ("rospack find my_services", False, "source devel/setup.bash"),
+    "not sourced: rossrv": ("rossrv show my_services/Box", False, "source devel/setup.bash"),
     "wrong case": (
         "python3 -c 'from my_services.srv import box'",
         True,
-        "Capital and small letters are different",
+        "distinguish capital and small letters",
     ),
     "no run bit": ("rosrun my_services plain.py", True, "chmod +x"),
     "no shebang": ("rosrun my_services shell.py", True, "#!/usr/bin/env python3"),

@@ -405,9 +405,9 @@ replace("sides = [float(text) for text in rospy.myargv(argv)[1:]]", """_, length
 replace("\n    return sides if len(sides) == 3 else None", "")
 # %% 06.5 wrong: reads only the first eight lists | hint: The result has to depend on the arguments
 replace("argv):", "argv, calls=[]):\n    calls.append(argv)\n    if len(calls) > 8:\n        return None")
-# %% 06.5 wrong: keeps the arguments of ROS | hint: Arguments with := are for ROS. Use
+# %% 06.5 wrong: keeps the arguments of ROS | hint: ROS uses the arguments that contain :=. Use
 replace("rospy.myargv(argv)", "argv")
-# %% 06.5 wrong: removes only three arguments of ROS | hint: Arguments with := are for ROS. Use
+# %% 06.5 wrong: removes only three arguments of ROS | hint: ROS uses the arguments that contain :=. Use
 replace("rospy.myargv(argv)", '[text for text in argv if text.split(":=")[0] not in ("__name", "__log", "getGeometry")]')
 # %% 06.5 wrong: reads the program's name as an argument | hint: The function returned None, although `argv`
 replace("(argv)[1:]", "(argv)")
@@ -499,7 +499,7 @@ replace('if __name__ == "__main__":\n    sys.exit(main())', "sys.exit(main())")
 replace('    rospy.init_node("fits", anonymous=True)\n', "")
 # %% 06.6 wrong: uses an absolute service name | hint: Remove the slash from the
 replace('"getGeometry"', '"/getGeometry"', times=2)
-# %% 06.6 wrong: does not remove ROS's arguments from sys.argv | hint: Arguments with := are for ROS. Remove
+# %% 06.6 wrong: does not remove ROS's arguments from sys.argv | hint: ROS uses the arguments that contain :=. Remove
 replace("rospy.myargv(argv)", "argv")
 # %% 06.6 wrong: calls the service twice | hint: The program called the service more
 replace("    print(\"fits\"", "    rospy.ServiceProxy(\"getGeometry\", geometry)(*sides)\n    print(\"fits\"")

@@ -279,7 +279,7 @@ replace('if __name__ == "__main__":\n    sys.exit(main(rospy.myargv(sys.argv)[1:
         sys.exit(1)
     print("area: %.2f" % answer.area)
     print("volume: %.2f" % answer.volume)""")
-# %% 07.5 wrong: does not remove ROS's arguments from sys.argv | hint: Arguments with := are for ROS.
+# %% 07.5 wrong: does not remove ROS's arguments from sys.argv | hint: ROS uses the arguments that contain :=.
 replace("rospy.myargv(sys.argv)[1:]", "sys.argv[1:]")
 # %% 07.5 wrong: sends the height first | hint: The request contains the numbers
 replace("(length, width, height)\n", "(height, width, length)\n")

@@ -97,7 +97,7 @@ replace('rospy.init_node("pubvel_toggle … rate.sleep()', "main()")
 replace('\nforward = True', '\nforward = False')
 # %% 09.2 wrong: publishes a velocity of 0 in the handler | hint: A message contained a wrong velocity
 replace("    return EmptyResponse()", "    publisher.publish(Twist())\n    return EmptyResponse()")
-# %% 09.2 wrong: also publishes in the handler | hint: Each call published another message
+# %% 09.2 wrong: also publishes in the handler | hint: Each call of the service published one more message
 replace("    return EmptyResponse()", """    message = Twist()
     message.linear.x, message.angular.z = float(forward), float(not forward)
     publisher.publish(message)

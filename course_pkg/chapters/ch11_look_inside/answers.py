@@ -26,7 +26,7 @@ replace("<", "!", times=2)
 replace('struct.pack("<I", len(body)) + body', "body")
 # %% 11.1 wrong: includes the length's own 4 bytes | hint: The first length is too large by 4
 replace("(body)", "(body) + 4")
-# %% 11.1 wrong: writes the number of fields | hint: The header begins with the number of its fields
+# %% 11.1 wrong: writes the number of fields | hint: Your header begins with the number of its fields
 replace('b""', 'struct.pack("<I", len(fields))')
 replace('struct.pack("<I", len(body)) + body', "body")
 # %% 11.1 wrong: counts letters instead of bytes | hint: A length is a number of bytes, and the letter ü has two bytes
@@ -427,7 +427,7 @@ replace("return AddUpResponse(*self.sessions[session])", """self.calls += 1
         return AddUpResponse(self.sessions[session][0], self.calls)""")
 # %% 11.4 wrong: omits the number of calls | hint: The field `calls` is 0
 replace("AddUpResponse(*self.sessions[session])", "AddUpResponse(total=self.sessions[session][0])")
-# %% 11.4 wrong: accepts a call without a session | hint: A call without a session got a total
+# %% 11.4 wrong: accepts a call without a session | hint: Your server accepted a call without a session
 replace('\n        if not session:\n            raise rospy.ServiceException("no field session in the connection header")', "")
 # %% 11.4 wrong: raises a KeyError if the field is missing | hint: and this caused an exception of the wrong type
 replace('.get("session")', '["session"]')

@@ -22,7 +22,7 @@ FROM_GRAPH: tuple[Row, ...] = (
     (
         r"Unable to register with master node",
         f"{NO_MASTER} init_node() tries to register the node repeatedly, but prints this message only once.",
-        "Start a master, or correct ROS_MASTER_URI. Ctrl-C ends the wait.",
+        "Start a master, or correct ROS_MASTER_URI. Ctrl-C ends the waiting program.",
         "12",
     ),
     (

@@ -9,7 +9,7 @@ def longer(function, argv, number):
     numbers.append(number)
     return numbers
 """  # A check receives a tuple as a list, but code in the kernel can append a number only to a list.
-FOR_ROS = "Arguments with := are for ROS. Use rospy.myargv(argv), which returns all other arguments."
+FOR_ROS = "ROS uses the arguments that contain :=. Use rospy.myargv(argv), which returns all other arguments."
 NUMBERS = "Return the three numbers as a list, and ignore arguments for ROS."
 
 

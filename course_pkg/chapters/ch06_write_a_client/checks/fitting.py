@@ -349,7 +349,7 @@ def _about_calls(calls: int, case: Case, done: Finished, elsewhere: bool) -> str
             "the slash from the name of the service."
         )
     if done.status == 2:
-        return "Arguments with := are for ROS. Remove these arguments with rospy.myargv(sys.argv)."
+        return "ROS uses the arguments that contain :=. Remove these arguments with rospy.myargv(sys.argv)."
     return (
         "The program ended before the call. Run the program in a terminal, and read the last line "
         "of the output."

@@ -129,7 +129,7 @@ def _why_not_sent(sent: list[float], sides: list[float], done: Finished) -> str:
     if done.status is None:
         return f"The client waits, but it sends no request. Wait for {SERVICE}, and call this service once."
     if done.status == 2:
-        return "Arguments with := are for ROS. Remove these arguments with rospy.myargv(sys.argv)."
+        return "ROS uses the arguments that contain :=. Remove these arguments with rospy.myargv(sys.argv)."
     return _about_error(done)
 
 

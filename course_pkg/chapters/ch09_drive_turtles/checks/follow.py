@@ -42,7 +42,7 @@ STOPS = (
     "with exit status 1"
 )
 CALLED = "Call /spawn, /toggle_forward and /change_speed in this order."
-PASSED_ON = "Publish the velocities of turtle1 for MyTurtle."
+PASSED_ON = "Publish each velocity of turtle1 also for MyTurtle."
 FOLLOW_GOALS = {
     CALLED: 3,
     PASSED_ON: 3,

@@ -131,7 +131,8 @@ class Stream:
             holds=arrived < took * usual + CALLS / 2,
             expected="the same rate while clients call the service",
             actual=f"{arrived} messages in {took:.1f} s",
-            hints="Each call published another message. Publish only in the loop, not in the handler.",
+            hints="Each call of the service published one more message. Publish only in the loop, not in "
+            "the handler.",
         )
 
     def moves_turtle(self) -> None:

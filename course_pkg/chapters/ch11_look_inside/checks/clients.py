@@ -277,7 +277,7 @@ RESET = [
     )
 ]
 SHARED = (
-    "A second object of the class changed the address of the first object. Store "
+    "A second object of the class changed the server address that the first object uses. Store "
     "the address in self, so that each object has its own address."
 )
 SAID_NO = (

@@ -185,7 +185,7 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed(fields, total=lambda _: len(fields)),
-            ("The header begins with the number of its fields. Begin with the number of bytes that follow."),
+            ("Your header begins with the number of its fields. Begin with the number of bytes that follow."),
         ),
         (
             _packed(fields, count=len),

@@ -180,8 +180,8 @@ def _is_right(
 NOT_REFUSED: Hints = [
     (
         matches("a total of"),
-        'A call without a session got a total. If the header field "session" is missing or empty, raise '
-        "rospy.ServiceException.",
+        'Your server accepted a call without a session. If the header field "session" is missing or '
+        "empty, raise rospy.ServiceException.",
     ),
     (
         matches("error processing request: 'session'|NoneType"),

@@ -107,7 +107,7 @@ IN_ORDER = (
     "The function did not read the parts of the response in the right order. After the server's "
     "header, read one byte for success, 4 bytes for the length N, and N bytes of data."
 )
-ANSWERED = "Return the response, even if its bytes arrive one after the other."
+ANSWERED = "Return the whole response, even if its bytes arrive in several parts."
 
 
 @part(

@@ -24,7 +24,9 @@ DECISIVE = {
         "The two programs were built with different definitions. A second call does not change the "
         "definitions."
     ),
-    "speed": "The request sets a state, such as a speed, so a second request changes nothing.",
+    "speed": (
+        "The request sets a state, such as a speed, so the same request changes nothing if it is sent again."
+    ),
     "payment": "Perhaps the till has already taken the money. The till recognises a repeated request.",
     "step": (
         "Perhaps the robot has already moved, and a second request moves it again. A call of /where "

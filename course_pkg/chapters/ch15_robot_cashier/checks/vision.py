@@ -255,8 +255,8 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
             "too many bytes",
             frames[1],
             (
-                "This frame has more bytes than height * step, so it is not valid. Test for exactly height * "
-                "step bytes."
+                "This frame has more bytes than height * step, so it is not valid. A valid frame has "
+                "exactly height * step bytes."
             ),
         ),
         ("another encoding", frames[2], ENCODING),

@@ -254,8 +254,8 @@ def _fetches_many(context: CheckContext, client: actionlib.SimpleActionClient) -
             (
                 lambda actual: actual < things,
                 (
-                    "The robot stopped before it had fetched all things. Fetch goal.things things, for any "
-                    "number of things."
+                    "The robot stopped before it had fetched all things. The field goal.things "
+                    "contains the number of things. Fetch this number of things."
                 ),
             ),
             (ANYTHING, COUNTED_ON),

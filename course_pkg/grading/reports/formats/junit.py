@@ -33,7 +33,7 @@ def _suite(grade: Grade) -> ElementTree.Element:
     name = f"{name_of(grade.student)} chapter {clean.line(grade.chapter, 20) or '?'}"
     suite = ElementTree.Element("testsuite", name=name)
     if grade.problem or not grade.reports:
-        _case(suite, "submission", "error", grade.problem or "There is nothing to examine.", "")
+        _case(suite, "submission", "error", grade.problem or "There is no answer to examine.", "")
     for report in grade.reports:
         _part(suite, report)
     if grade.notes:
