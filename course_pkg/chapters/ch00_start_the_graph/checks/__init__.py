@@ -356,7 +356,8 @@ def count_what_was_missed(context: CheckContext) -> None:
             ),
         )
         # A subscriber receives a number only if it is connected to the publisher. The subscriber may connect
-        # just after the publisher has counted its subscribers, so accept one number before the connection.
+        # just after the publisher has counted its subscribers, so accept a number if the publisher counted a
+        # subscriber for this number or for the next number.
         subscribers = publisher.subscribers
         for place in (before - first, after - first):
             if not any(subscribers[place : place + 2]):
