@@ -705,7 +705,7 @@ replace("self.look_up()\n            return ask(self.uri, self.service, length, 
             return ask(self.uri, self.service, length, width, height)
         except OSError:
             return None""")
-# %% 11.6 wrong: uses one address for all objects | hint: A second object of the class changed the address
+# %% 11.6 wrong: uses one address for all objects | hint: A second object of the class changed the server address
 replace("self.uri = ", "Remembering.uri = ")
 # %% 11.6 wrong: does not store the new address | hint: Store every address that you look up
 replace("\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """
