@@ -277,7 +277,7 @@ def test_rates_callers_and_folds_follow_the_graph(lab: Lab, lab_page: Page) -> N
     with running_notebook(lab_page, lab, "talk", TALK, CALL, "GraphPanel()", delayed):
         graph = panel(lab_page, "Graph panel")
         expect(shape(graph, "topic /robot/said")).to_contain_text("10 Hz")
-        expect(shape(graph, "topic /robot/unheard")).to_contain_text("no subscriber")
+        expect(shape(graph, "topic /robot/unheard")).to_contain_text("not received")
         shape(graph, "service /robot/ask").click()
         details = graph.locator(".ros-details")
         expect(details).to_contain_text("called by /talk_test")

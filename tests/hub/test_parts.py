@@ -39,7 +39,7 @@ def test_a_password_is_accepted_once(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["Anna", "anna berg", "../anna", "-anna", "1anna", "a" * 33, "anna\n", ""])
 def test_unusual_names_are_refused(name: str) -> None:
     """A name that is not valid for an account leads to an error message."""
-    with pytest.raises(HubError, match="not names of accounts"):
+    with pytest.raises(HubError, match="cannot be names of accounts"):
         accounts.check_names(["ben", name])
 
 

@@ -203,7 +203,7 @@ class GraphActivity:
         if not publishers:
             return "no publisher", [["rate", "no publisher, so there are no messages"]]
         if not subscribers:
-            return "no subscriber", [["rate", "no subscriber, so nothing is sent"]]
+            return "not received", [["rate", "no subscriber, so nothing is sent"]]
         if self.seen is None:
             return "", []
         carried = self._carried[topic.name]

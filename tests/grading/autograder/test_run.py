@@ -156,5 +156,5 @@ def test_an_answer_that_prevents_its_check_has_failed(tmp_path: Path, attack: st
     (found,) = [each for each in tests if isinstance(each, dict) and each["number"] == "05.1"]
     assert results["score"] == 0
     assert (found["score"], found["max_score"], found["status"]) == (0, 2, "failed")
-    assert "No points" in str(found["output"])
+    assert "There are no points" in str(found["output"])
     assert "not examined" not in str(found["output"])

@@ -78,7 +78,7 @@ def test_a_topic_without_publisher_or_subscriber_has_no_rate() -> None:
     """Without a publisher or a subscriber, the topic has no rate."""
     wall = Wall()
     wall.model.count(Activity(0.0))
-    assert wall.now["notes"]["topic /unheard"] == "no subscriber"
+    assert wall.now["notes"]["topic /unheard"] == "not received"
     assert wall.now["details"]["topic /unheard"] == [["rate", "no subscriber, so nothing is sent"]]
     assert wall.now["notes"]["topic /unsaid"] == "no publisher"
 
@@ -143,7 +143,7 @@ def test_notes_fit_below_the_name_of_a_topic() -> None:
     for activity in [*counts(0, 20, 40), Activity(6.0), Activity(8.0, silent=frozenset({"/talker"}))]:
         wall.model.count(activity)
     notes = {note for each in wall.said for note in each["activity"]["notes"].values()}
-    assert {"10 Hz", "unconnected", "not counted", "no subscriber", "no publisher"} <= notes
+    assert {"10 Hz", "unconnected", "not counted", "not received", "no publisher"} <= notes
     assert max(map(len, notes)) <= 12
 
 
