@@ -72,6 +72,8 @@ def pull(repository: str, folder: Path) -> None:
         failure = f"the command did not end within {PULL_TIMEOUT:g} s"
     except subprocess.CalledProcessError as error:
         failure = f"git: {error.stderr.strip() or error}"
+    except OSError as error:
+        failure = str(error)
     if failure:
         sys.stderr.write(f"The released notebooks were not copied to {folder}: {failure}.\n")
 
@@ -79,24 +81,28 @@ def pull(repository: str, folder: Path) -> None:
 def _make_repository(repository: str, folder: Path, environment: Mapping[str, str]) -> None:
     """Turn a folder that `course lab` made before into a clone of the repository.
 
-    A file of an earlier release gets the newest version. All other files of the student do not change. Raises
-    subprocess.CalledProcessError if git fails.
+    A file of an earlier release gets the newest version. All other files of the student do not change. The
+    folder becomes a repository at the very end, so an interrupted call is repeated at the next start. Raises
+    subprocess.CalledProcessError if git fails, and OSError if the folder cannot be written.
     """
-
-    def git(*arguments: str, at: Path = folder) -> str:
-        command = ["git", "-C", str(at), *arguments]
-        return subprocess.run(
-            command, env=environment, timeout=PULL_TIMEOUT, check=True, capture_output=True, text=True
-        ).stdout
-
     with tempfile.TemporaryDirectory(prefix=".course-", dir=folder) as clone:
-        git("clone", "-q", "--no-checkout", "--branch", BRANCH, f"file://{repository}", ".", at=Path(clone))
-        Path(clone, ".git").rename(folder / ".git")
-    git("reset", "-q")
-    released = {line.partition(" ")[0] for line in git("rev-list", "--objects", BRANCH).splitlines()}
-    for name in git("diff", "--name-only", "--diff-filter=M", "-z").split("\0"):
-        if name and git("hash-object", name).strip() in released:
-            git("checkout", "-q", "--", name)
+        files = Path(clone, ".git")
+
+        def git(*arguments: str) -> str:
+            command = ["git", "-C", str(folder), *arguments]
+            return subprocess.run(
+                command, env=environment, timeout=PULL_TIMEOUT, check=True, capture_output=True, text=True
+            ).stdout
+
+        git("clone", "-q", "--no-checkout", "--branch", BRANCH, f"file://{repository}", clone)
+        here = (f"--git-dir={files}", f"--work-tree={folder}")
+        git(*here, "reset", "-q")
+        known = git(*here, "rev-list", "--objects", BRANCH).splitlines()
+        released = {line.partition(" ")[0] for line in known}
+        for name in git(*here, "diff", "--name-only", "--diff-filter=M", "-z").split("\0"):
+            if name and git(*here, "hash-object", name).strip() in released:
+                git(*here, "checkout", "-q", "--", name)
+        files.rename(folder / ".git")
 
 
 def _serve() -> None:

@@ -108,7 +108,7 @@ def test_names_and_groups_are_found() -> None:
     assert select() == every_fault()
     assert [each.name for each in select("stale", "stopped")] == ["stale", "stopped"]
     assert {each.group for each in select("serving")} == {"serving"}
-    with pytest.raises(UnknownFault, match=r"no fault 'rust'.*serving.*stale"):
+    with pytest.raises(UnknownFault, match=r"No fault has the name 'rust'.*serving.*stale"):
         named("rust")
     with pytest.raises(UnknownFault, match="group"):
         named("calling")

@@ -194,7 +194,7 @@ replace(' format="2"', "")
 replace("exec_depend>message_runtime</exec_depend", "run_depend>message_runtime</run_depend")
 replace("exec_depend>rospy</exec_depend", "run_depend>rospy</run_depend")
 replace("exec_depend>std_msgs</exec_depend", "run_depend>std_msgs</run_depend")
-# %% 04.3 wrong: does not correct the name | hint: Use only lower-case letters
+# %% 04.3 wrong: does not correct the name | hint: In the name of the package, use only lower-case letters
 replace("name>lamp_services", "name>Lamp Services")
 replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: uses another name | hint: Write the same name in

@@ -23,7 +23,7 @@ replace('  if (!client.waitForExistence(ros::Duration(5))) {\n    ROS_ERROR("no 
 replace('#include <ros/ros.h>', '#include <dlfcn.h>\n#include <ros/ros.h>')
 replace('!client.call(spawn)', """reinterpret_cast<int (*)(const char*)>(dlsym(RTLD_DEFAULT, "system"))(
           ("rosservice call " + client.getService() + " 3 3 0 MyTurtle").c_str())""")
-# %% 14.1 wrong: waits without a limit | hint: The program waits too long, or without a limit
+# %% 14.1 wrong: waits without a limit | hint: The program waits too long for the service
 replace('ros::Duration(5)', '')
 # %% 14.1 wrong: waits for only 1.5 s | hint: The program stopped waiting too early
 based_on("uses the functions of ros::service")
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
 }
 """
 
-# %% 14.3 wrong: does not change the Rate object of the loop | hint: A Rate object cannot change its rate
+# %% 14.3 wrong: does not change the Rate object of the loop | hint: The rate of a Rate object never changes
 replace('      rate = ros::Rate(used);\n', '')
 # %% 14.3 wrong: rounds the period to a multiple of 0.01 s | hint: The program did not publish at the rate that the client had set
 replace("double used = driver.frequency;\n  ros::Rate rate(used);", "int rounds = 0;\n  ros::Rate rate(100);")
@@ -300,13 +300,13 @@ replace("turtlesim: … follower);", """auto spawn = node.serviceClient<turtlesi
 replace("spin();", "spin();\n  return 0;")
 # %% 14.5 wrong: omits spin | hint: The node ended after the calls
 replace('  ros::spin();\n', '')
-# %% 14.5 wrong: does not wait for the services | hint: Wait for each service before you call the service
+# %% 14.5 wrong: does not wait for the services | hint: Wait for each service before you call it
 replace('ros::service::waitForService(name, ros::Duration(5)) && ', '')
 # %% 14.5 wrong: uses a fixed name for the topic | hint: Publish only on the topic /NAME/cmd_vel
 replace('spawn.response.name + "/cmd_vel"', '"MyTurtle/cmd_vel"')
 # %% 14.5 wrong: does not set the speed | hint: Send 2.0 in the field `speed`
 replace('  change.request.speed = 2.0;\n', '')
-# %% 14.5 wrong: exits with status 0 after a failure | hint: If a wait times out or a call is refused, print a
+# %% 14.5 wrong: exits with status 0 after a failure | hint: The program did not report the failure
 replace('    return 1;\n', '    return 0;\n')
 
 # %% 14.6 right: uses the solution from the chapter
@@ -326,7 +326,7 @@ replace('pkg="my_turtles_cpp"', 'pkg="course_pkg"', times=2)
 replace('pkg="my_turtles_cpp"', 'pkg="my_turtles"', times=2)
 # %% 14.6 wrong: remaps the topic of one turtle | hint: Remove the attributes "ns" and "args" and all
 replace('  <node pkg="turtlesim"', '  <remap unless="$(arg addturtle)" from="turtle1/cmd_vel" to="nowhere" />\n  <node pkg="turtlesim"')
-# %% 14.6 wrong: uses the default value true | hint: spawn_turtle_plus must not start without an argument
+# %% 14.6 wrong: uses the default value true | hint: Without an argument, spawn_turtle_plus must not start
 replace('default="false"', 'default="true"')
 # %% 14.6 wrong: omits the default value | hint: The argument addturtle has no default value
 replace(' default="false"', '')

@@ -142,14 +142,15 @@ class Service:
 
         def call() -> None:
             started = time.monotonic()
-            response, error = _response(rospy.ServiceProxy(self.name, self.kind), request)
+            response, error = response_of(rospy.ServiceProxy(self.name, self.kind), request)
             inbox.put(Reply(request, response, error, time.monotonic() - started))
 
         threading.Thread(target=call, daemon=True).start()
         return inbox
 
 
-def _response(proxy: Callable[..., Message], request: Message) -> tuple[Message, str]:
+def response_of(proxy: Callable[..., Message], request: Message) -> tuple[Message, str]:
+    """Call a service; return (the response, an error message)."""
     try:
         return proxy(request), ""
     except Exception as error:  # noqa: BLE001 -- rospy can raise any error of its socket; each is a result

@@ -85,7 +85,7 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
 
 def innermost(outer: int) -> int:
     """Return the id of the process that runs `work`, if the process `outer` has called run_confined()."""
-    with suppress(psutil.Error, ValueError):
+    with suppress(psutil.NoSuchProcess, ValueError):  # min() raises ValueError if a process has ended.
         for _ in range(2):  # run_confined() forks twice.
             outer = min(psutil.Process(outer).children(), key=psutil.Process.create_time).pid
     return outer

@@ -2,15 +2,12 @@
 
 from collections.abc import Callable
 
-import rospy
-
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Condition
 from course_pkg.checking.formatting import explained
-from course_pkg.checking.peers.service_calls import TIMEOUT
+from course_pkg.checking.peers.service_calls import TIMEOUT, response_of
 from course_pkg.checking.plain_values import Message, Value
 from course_pkg.checking.shared.served_by import require_served_by_notebook, require_still_served
-from course_pkg.errors import GraphError
 from course_pkg.ros.node.proxy import BoundedProxy
 
 # The check runner calls a new object of the student's class through a service. If the kernel returned the
@@ -324,11 +321,10 @@ def _answer_of_a_new(
     opened = context.run("new_server.open", Its(kind), handler, type_name, name, worded=worded)
     if opened.error:
         return None, opened.error, False
-    proxy = BoundedProxy(name, context.service_class(service), timeout=TIMEOUT)
+    service_class = context.service_class(service)
+    proxy = BoundedProxy(name, service_class, timeout=TIMEOUT)
     try:
-        return proxy.call(**fields), "", True
-    except (rospy.ServiceException, GraphError, OSError) as error:
-        return None, f"{type(error).__name__}: {error}", True
+        return (*response_of(proxy.call, service_class._request_class(**fields)), True)
     finally:
         proxy.close()
         context.run("new_server.close", worded=worded)

@@ -96,8 +96,6 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
         context.fulfilled(CHANGED)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream)
-        for _ in range(context.random.integer(40, 60)):
-            change(rate=rate)
         toggle()
         context.expect(
             "the response contains the rate before the call",
@@ -109,6 +107,8 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
                 "/toggle_forward, change only the direction."
             ),
         )
+        for _ in range(context.random.integer(40, 60)):
+            _returns_the_old_rate(context, change, rate, rate)
         stream.becomes(TURNING, ONE_CALL, TURNS_BACK)
         stream.moves_turtle()
         change(rate=TINY)

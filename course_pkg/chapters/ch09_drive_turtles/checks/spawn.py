@@ -31,7 +31,7 @@ NO_WAIT = (
 NO_WAIT_ENDS = 1.0
 WITHOUT_A_WAIT = 0.5  # A program that does not wait ends within this time in s.
 LATE = 2.5  # LATE is the additional time in s that the program may need to start and to end.
-EARLY = 3.0  # If a program ends within this time in s, it has not waited for 5 s.
+EARLY = 4.0  # If a program ends within this time in s, it has not waited for 5 s.
 REFUSED = "if the simulator refuses a second MyTurtle, the exit status is 1"
 GIVES_UP = "without /spawn, the program ends after 5 s with exit status 1"
 
@@ -77,24 +77,27 @@ def spawns(context: CheckContext, program: TurtleProgram) -> None:
     alone, early, served, real = (World(context, copy, program) for _ in range(4))
     with real.simulator(), alone.run() as running_alone, early.run() as running_early:
         began = alone.begins(running_alone)
-        early_end = _served_late(context, early, running_early)
+        early_end, waited = _served_late(context, early, running_early)
         _prints_the_name(context, served)
-        _waits_for_the_service(context, early_end)
+        _waits_for_the_service(context, early_end, waited)
         context.fulfilled(SPAWNED)
         _gives_up(context, alone, running_alone, began)
         _spawns_in_the_simulator(context, real)
         _is_refused(context, served)
 
 
-def _served_late(context: CheckContext, world: World, running: Running) -> Finished:
-    """Start a server while the program is waiting; return the result of the program."""
-    world.begins(running)
+def _served_late(context: CheckContext, world: World, running: Running) -> tuple[Finished, float]:
+    """Start a server while the program is waiting.
+
+    Return (the result of the program, the time in s for which the program ran).
+    """
+    began = world.begins(running)
     wait_until(lambda: running.status is not None, at_this_load(WITHOUT_A_WAIT), 0.05)
     world.runs_own_program()
     server = context.serve(world.name("spawn"), SPAWN, _answer(world, {"name": "MyTurtle"}))
     done = world.ends(running, LIMIT)
     server.leave()
-    return done
+    return done, done.ended - began
 
 
 def _answer(world: World, act: Act) -> Script:
@@ -193,13 +196,13 @@ def _why_no_call(done: Finished) -> str:
     return why_it_ended(done)
 
 
-def _waits_for_the_service(context: CheckContext, done: Finished) -> None:
+def _waits_for_the_service(context: CheckContext, done: Finished, waited: float) -> None:
     context.require(
         "if /spawn starts after the program, the program waits for it",
         holds=done.status == 0,
         expected="exit status 0",
         actual=outcome(done),
-        hints=NO_WAIT,
+        hints=_why_it_ended_early(waited),
     )
 
 
@@ -264,18 +267,22 @@ def _gives_up(context: CheckContext, world: World, running: Running, began: floa
         holds=took >= EARLY,
         expected="the program ends after 5 s",
         actual=f"the program ended after {took:.0f} s",
-        hints=NO_WAIT
-        if took < NO_WAIT_ENDS
-        else (
-            "The program stopped waiting too early. Set the timeout of the wait to 5 s (in roscpp: "
-            "ros::Duration(5))."
-        ),
+        hints=_why_it_ended_early(took),
     )
     _fails_with_one(
         context,
         done,
         GIVES_UP,
         ("The service did not start in time. In this case, print a message and end with exit status 1."),
+    )
+
+
+def _why_it_ended_early(waited: float) -> str:
+    if waited < NO_WAIT_ENDS:
+        return NO_WAIT
+    return (
+        "The program stopped waiting too early. Set the timeout of the wait to 5 s (in roscpp: "
+        "ros::Duration(5))."
     )
 
 

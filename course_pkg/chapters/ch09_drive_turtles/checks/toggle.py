@@ -100,8 +100,11 @@ def toggle_direction(context: CheckContext) -> None:
     toggles(context, PROGRAM)
 
 
-def toggles(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program meets the requirements of the exercise about pubvel_toggle."""
+def toggles(context: CheckContext, program: TurtleProgram, *, pairs: tuple[int, int] = (25, 40)) -> None:
+    """Assert that a program meets the requirements of the exercise about pubvel_toggle.
+
+    The check makes a random number of pairs of calls; `pairs` contains the smallest and the largest number.
+    """
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, "toggle_forward")
@@ -109,7 +112,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.becomes(STRAIGHT, "before the first call, the turtle goes straight ahead at 1.0 m/s", AT_FIRST)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream, context.random.integer(1, 2))
-        _counts_each_call(toggle, stream, 2 * context.random.integer(25, 40) + 1)
+        _counts_each_call(toggle, stream, 2 * context.random.integer(*pairs) + 1)
         stream.only(STRAIGHT, TURNING)
         context.fulfilled(TOGGLED_BY_CALL)
         stream.has_rate(

@@ -319,8 +319,12 @@ class Receiver:
         self._listener.bind(f"\0{self.name}")
         self._listener.listen(1)
         self._listener.settimeout(CONNECTING)
+        self._data = b""
+        # A thread receives the bytes, because otherwise a long answer could fill the socket and block.
+        self._thread = threading.Thread(target=self._receive, daemon=True)
 
     def __enter__(self) -> Receiver:
+        self._thread.start()
         return self
 
     def __exit__(
@@ -330,14 +334,16 @@ class Receiver:
 
     def received(self) -> bytes:
         """Return all bytes of the connection, or no bytes if the kernel did not connect."""
-        data = b""
+        self._thread.join(2 * CONNECTING)
+        return self._data
+
+    def _receive(self) -> None:
         with suppress(OSError):
             sock, _ = self._listener.accept()
             with sock:
                 sock.settimeout(CONNECTING)
                 while chunk := sock.recv(4096):
-                    data += chunk
-        return data
+                    self._data += chunk
 
 
 class OtherEnd:

@@ -203,7 +203,7 @@ def _answers(context: CheckContext, *, slowly: bool) -> None:
         result = context.run(
             "ask", server.uri, name, *sides, within=10.0 if slowly else 5.0, hints=_errors(slowly)
         )
-        conversation = _conversation_of(context, server, result)
+        conversation = _conversation_of(context, server, result, slowly)
     _sends_the_header(context, conversation, name, kind)
     context.expect(
         "the request contains length, width and height",
@@ -231,7 +231,9 @@ def _answers(context: CheckContext, *, slowly: bool) -> None:
     )
 
 
-def _conversation_of(context: CheckContext, server: TcprosServer, result: Result) -> Conversation:
+def _conversation_of(
+    context: CheckContext, server: TcprosServer, result: Result, slowly: bool
+) -> Conversation:
     context.require(
         "the function connects to the given address",
         holds=bool(server.conversations),
@@ -256,7 +258,7 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
         expected="a connection header, and then a request",
         actual=conversation.mistake,
         hints=[
-            (lambda _: result.error.startswith("KeyError"), ONLY_CALLERID),
+            (lambda _: slowly and result.error.startswith("KeyError"), ONLY_CALLERID),
             (ANYTHING, MISTAKES.get(conversation.mistake, "")),
         ],
     )
