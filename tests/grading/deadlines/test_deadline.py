@@ -104,7 +104,7 @@ def test_extensions_of_a_roster(tmp_path: Path) -> None:
 def test_a_broken_extension(written: str) -> None:
     """If an extension is invalid, the error message contains the line number, but no student's name."""
     person = Person("secret", line=3, more={"extension days": written})
-    with pytest.raises(GradingError, match="Line 3 of the roster: .* extension_days is not") as caught:
+    with pytest.raises(GradingError, match=r"Line 3 of the roster: .* extension_days is not") as caught:
         extensions_of({"secret": person})
     assert "secret" not in str(caught.value)
 
