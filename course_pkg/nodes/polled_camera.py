@@ -90,7 +90,7 @@ def main() -> None:
     wait_until(camera.knows_the_shop, SILENCE / 2)
     with undisturbed():
         rospy.Service("request_image", PolledImage, camera.handle_request)
-    rospy.loginfo("Ready to take pictures")
+        rospy.loginfo("Ready to take pictures")
     try:
         camera.stream(rate) if rate else rospy.spin()
     except rospy.ROSInterruptException:  # The node was shut down during a sleep.

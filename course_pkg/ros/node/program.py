@@ -62,7 +62,8 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 def undisturbed() -> Iterator[None]:
     """Delay Ctrl-C until the end of the `with` block.
 
-    While rospy calls the master, rospy holds a lock that the shutdown of rospy also needs.
+    While rospy calls the master, rospy holds a lock that the shutdown of rospy also needs. rospy calls the
+    master when it registers a service or a topic, reads a parameter, or writes a log message.
     """
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}

@@ -80,7 +80,8 @@ class Cashier:
             except (rospy.ServiceException, CourseError) as error:
                 if rospy.is_shutdown():  # The shutdown has cancelled the call.
                     return
-                rospy.logwarn_throttle(10, f"The call failed, so the cashier soon calls again: {error}")
+                with undisturbed():  # For each log message, rospy calls the master.
+                    rospy.logwarn_throttle(10, f"The call failed, so the cashier soon calls again: {error}")
                 rest = max(pause, AGAIN)
             due = max(due + rest, time.monotonic())
             rospy.sleep(due - time.monotonic())

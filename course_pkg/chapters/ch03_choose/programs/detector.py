@@ -100,5 +100,5 @@ def main() -> None:
     wait_until(detector.has_data, SILENCE)
     with undisturbed():
         rospy.Service("detect_customer", DetectCustomer, detector.handle_detect)
-    rospy.loginfo("The detector is ready")
+        rospy.loginfo("The detector is ready")
     rospy.spin()

@@ -80,5 +80,5 @@ def main() -> None:
     with undisturbed():
         camera = ShopCamera(int(number), every)
         rospy.Service("let_in", LetIn, camera.handle_let_in)
-    rospy.loginfo("The camera is running")
+        rospy.loginfo("The camera is running")
     camera.watch()

@@ -84,5 +84,5 @@ def main() -> None:
     with undisturbed():
         camera = CounterCamera(every)
         rospy.Service("let_in", LetIn, camera.handle_let_in)
-    rospy.loginfo("Watching the counter")
+        rospy.loginfo("Watching the counter")
     camera.watch(rate)

@@ -66,11 +66,12 @@ class RobotCashier:
             return bool(self._detect.call(patience=wait, timeout=wait + GRACE).found)
         except FAILED as error:
             if not self._over.is_set():  # After a shutdown, the error is expected and is not logged.
-                rospy.logwarn_throttle(
-                    QUIET,
-                    "The call of detect_customer failed, and the node will repeat the call: %s",
-                    error,
-                )
+                with undisturbed():  # For each log message, rospy calls the master.
+                    rospy.logwarn_throttle(
+                        QUIET,
+                        "The call of detect_customer failed, and the node will repeat the call: %s",
+                        error,
+                    )
             self._over.wait(AGAIN)
             return otherwise
 
