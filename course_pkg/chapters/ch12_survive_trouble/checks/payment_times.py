@@ -54,24 +54,24 @@ def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) ->
 
 
 def pauses_after_a_timeout(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the third attempt reach its time limit, and measure the next pause, which has to take 4 * PAUSE.
+    """Let the fourth attempt reach its time limit, and measure the next pause, which has to take 8 * PAUSE.
 
-    If the machine is busy, the request of the third attempt may arrive late, and the measured pause is then
-    too short. Therefore, a short pause is measured again.
+    If the machine is busy, each request may arrive late. The pause before the fifth attempt is measured,
+    because this pause is much longer than such a delay. A short pause is measured again.
     """
     pauses = []
     for _ in range(REPEATED):
         before = len(till.arrivals)
-        till.plan.extend([Fault(HangUp()), Fault(HangUp()), Fault(Late(1.5 * TRY, {}), worked=True)])
+        till.plan.extend([*[Fault(HangUp())] * 3, Fault(Late(1.5 * TRY, {}), worked=True)])
         pay(context, name, context.random.integer(100, 900), DEADLINE).returned()
-        third, fourth = till.arrivals[before + 2 : before + 4]
-        pauses.append(fourth - third - TRY)
-        if pauses[-1] > 2 * PAUSE:
+        fourth, fifth = till.arrivals[before + 3 : before + 5]
+        pauses.append(fifth - fourth - TRY)
+        if pauses[-1] > 3.5 * PAUSE:
             break
     context.require(
         "there is a pause before the next attempt",
-        holds=max(pauses) > 2 * PAUSE,
-        expected=f"a pause of {4 * PAUSE:g} s after the third attempt",
+        holds=max(pauses) > 3.5 * PAUSE,
+        expected=f"a pause of {8 * PAUSE:g} s after the fourth attempt",
         actual=f"a pause of {max(pauses):.2f} s",
         hints="There was no pause after a TimeoutError. Sleep after every failed call.",
     )
