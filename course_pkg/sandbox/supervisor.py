@@ -32,7 +32,7 @@ MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the m
 # mapped files (proc(5)).
 # If processes share a memory page, the page counts for each of these processes.
 QUICK = ("RssAnon:", "RssShmem:")
-# A shared page counts only once: its size is divided among the processes that share the page.
+# In this sum, a shared page counts only once: its size is divided among the processes that share the page.
 EXACT = ("Pss_Anon:", "Pss_Shmem:")
 OPEN = 4096  # No process of a sandbox has a file descriptor of this number or above.
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}

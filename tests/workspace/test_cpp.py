@@ -100,7 +100,7 @@ def test_a_mistake_is_recognised(mistake: str, tmp_path: Path) -> None:
 
 @needs_compiler
 def test_the_first_fault_is_one_of_the_student(tmp_path: Path) -> None:
-    """The first fault is the fault in the student's file, even after an error in a system header."""
+    """The explanation begins with the error in the student's file, not in a system header."""
     printed = (
         "/usr/include/boost/function.hpp:7:3: error: no type named 'type'\n"
         f"{tmp_path}/{FILE}:9:3: error: 'x' was not declared in this scope\n"

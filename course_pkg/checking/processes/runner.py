@@ -28,7 +28,7 @@ Store: TypeAlias = "Callable[[str, Mapping[str, Json]], str]"
 
 
 class DeadlinePassed(BaseException):
-    """The time limit of the check is over; `except Exception` does not catch this error."""
+    """Raised after the time limit of the check; `except Exception` does not catch this error."""
 
 
 def run_check(channel: Channel, store: Store | None = None, only: str = "", kernel: int = 0) -> Report:

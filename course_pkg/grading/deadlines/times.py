@@ -158,7 +158,7 @@ def _table(rows: list[Row], zone: tzinfo | None) -> _Table:
 
 
 def _moment(row: Row, written: str, zone: tzinfo | None) -> datetime:
-    """Return the time in a row.
+    """Return the submission time that a row of the table contains.
 
     An error message never contains a cell, because a cell can contain a student's name.
     """

@@ -211,7 +211,7 @@ def test_a_helper_split_off_belongs_to_the_answer() -> None:
 
 
 def test_a_file_that_was_split() -> None:
-    """If the code of a file is split into two cells, the program joins the two cells."""
+    """If a student has split the cell that writes a file into two cells, the rebuilder joins them."""
 
     def change(cells: Cells) -> None:
         _copied(cells, W, "int16 b")

@@ -1,4 +1,4 @@
-"""Tests of the graph panel's widget on a real master, and of its recording."""
+"""Tests of the graph panel: its widget with a real master, and its recording."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests of calls that never end with plain rospy, but time out with the course."""
+"""Tests of calls that would never end in plain rospy; with the course's proxy, they end at a time limit."""
 
 from __future__ import annotations
 

@@ -10,8 +10,8 @@ from course_pkg.checking.plain_values import Message, Value
 from course_pkg.checking.shared.served_by import require_served_by_notebook, require_still_served
 from course_pkg.ros.node.proxy import BoundedProxy
 
-# The check runner calls a new object of the student's class through a service. If the kernel returned the
-# result of a direct call, the student's code could replace this result.
+# The check creates a new object of the student's class, registers a service for it, and calls the service. If
+# the kernel returned the result of a direct call, the student's code could replace this result.
 A_NEW_SERVER = """
 import rospy
 from std_srvs import srv
