@@ -76,8 +76,8 @@ def _wait(process: SupervisedProcess) -> int:
     """
     while (status := process.returncode) is None:
         received = signal.sigwaitinfo(AWAITED)
-        # If a signal comes from the terminal, the pid of its sender is 0. The terminal sends the same signal to
-        # the command, so this signal must not be forwarded.
+        # If a signal comes from the terminal, the pid of its sender is 0. The terminal sends the same signal
+        # to the command, so this signal must not be forwarded.
         if received.si_signo != signal.SIGCHLD and received.si_pid:
             process.signal(received.si_signo)
     return status
