@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import signal
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from types import TracebackType
@@ -45,7 +45,14 @@ class CheckContext:
     of the run, all servers, topics and folders of the run are closed.
     """
 
-    def __init__(self, check: str, channel: Channel, node: Node, seed: int, kernel: int = 0) -> None:
+    def __init__(
+        self,
+        check: str,
+        channel: Channel,
+        node: Node,
+        seed: int,
+        kernel: Callable[[], int] | None = None,
+    ) -> None:
         self.random = RandomInputs(f"{seed}:{check}")
         self.doing = ""  # The report shows this text if the check is too slow.
         self._channel = channel
@@ -326,7 +333,7 @@ class CheckContext:
         This process measures the time, because the student's code can change a time that the kernel reports.
         If the process of the kernel is not known, the result is 0.
         """
-        return time_of_process(self._kernel) if self._kernel else 0.0
+        return time_of_process(self._kernel()) if self._kernel else 0.0
 
     def command(self, *argv: str, files: Sequence[str] = (), within: float = 10.0) -> Finished:
         """Run a command on the kernel's computer, in a new folder with copies of the student's `files`.

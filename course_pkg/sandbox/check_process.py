@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import os
 import socket
+from collections.abc import Callable
 from dataclasses import replace
 from typing import NoReturn
 
@@ -29,12 +30,12 @@ def check_part(
     commands: socket.socket,
     out: int,
     *,
-    kernel: int,
+    kernel: Callable[[], int],
     isolation: Isolation,
 ) -> NoReturn:
     """Run the check of the job, and write its record to the file `out`, as one JSON object.
 
-    `kernel` is the id of the process in which the answer runs.
+    `kernel` is a function that returns the id of the process in which the answer runs.
     """
     if isolation.namespaces:
         namespaces.enter(network, namespaces.NETWORK)

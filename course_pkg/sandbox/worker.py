@@ -196,9 +196,13 @@ class Session:
             client,
             commands,
             out,
-            kernel=confinement.innermost(self._student) if self._isolation.namespaces else self._student,
+            kernel=self._kernel,
             isolation=self._isolation,
         )
+
+    def _kernel(self) -> int:
+        """Return the id of the process in which the answer runs."""
+        return confinement.innermost(self._student) if self._isolation.namespaces else self._student
 
     def _wait(self, files: Sequence[int | socket.socket]) -> list[int | socket.socket]:
         """Wait until one of the files is ready, the supervisor ends, or the job reaches its time limit."""

@@ -660,15 +660,6 @@ replace("rospy.logwarn(error)", 'if "jam" not in str(error):\n                ra
 # %% 15.8 wrong: releases the lock before it calculates the sum | hint: A total is not the sum of the prices that were printed
 replace("""prices[request.item] = request.cents
         return sum(prices.values())""", "prices[request.item] = request.cents\n    rospy.sleep(0.2)\n    return sum(prices.values())")
-# %% 15.8 wrong: does not release the lock after a refused call | hint: After a refused call, the next call got no response
-based_on("prints nothing")
-replace("with turn:\n        prices[request.item] = request.cents\n        return sum(prices.values())", """turn.acquire()
-    print_line(f"{request.item} {request.cents}")
-    prices[request.item] = request.cents
-    total = sum(prices.values())
-    turn.release()
-    return total""")
-replace("\n    with turn:\n        return sum(prices.values()), len(prices)", "\n    return sum(prices.values()), len(prices)")
 # %% 15.8 wrong: does not release the lock after a refused call, and also locks the total | hint: After a refused call, the next call got no response
 based_on("prints nothing")
 replace("with turn:\n        prices[request.item] = request.cents\n        return sum(prices.values())", """turn.acquire()
@@ -677,6 +668,9 @@ replace("with turn:\n        prices[request.item] = request.cents\n        retur
     total = sum(prices.values())
     turn.release()
     return total""")
+# %% 15.8 wrong: does not release the lock after a refused call | hint: After a refused call, the next call got no response
+based_on("does not release the lock after a refused call, and also locks the total")
+replace("\n    with turn:\n        return sum(prices.values()), len(prices)", "\n    return sum(prices.values()), len(prices)")
 # %% 15.8 wrong: repeats a refused line without a limit | hint: The till called print_line again after the printer had refused
 replace('        print_line(f"{request.item} {request.cents}")\n', """        while True:
             try:

@@ -31,12 +31,17 @@ class DeadlinePassed(BaseException):
     """Raised after the time limit of the check; `except Exception` does not catch this error."""
 
 
-def run_check(channel: Channel, store: Store | None = None, only: str = "", kernel: int = 0) -> Report:
+def run_check(
+    channel: Channel,
+    store: Store | None = None,
+    only: str = "",
+    kernel: Callable[[], int] | None = None,
+) -> Report:
     """Run the check that the client requests; return the report, and send it to the client.
 
     `store` is a function that gets the id of the check and its result. It returns a message for the report,
     or "". Without `store`, nothing is stored. If `only` is not empty, only the check with this id is run.
-    `kernel` is the process id of the kernel, or 0 if it is not known.
+    `kernel` is a function that returns the process id of the kernel, or None if this id is not known.
     Raises ChannelError if the client does not request a check.
     """
     seed = int(os.environ.get("COURSE_SEED") or secrets.randbits(32))
@@ -62,7 +67,7 @@ def record(report: Report, seed: int) -> dict[str, Json]:
     return {**report.as_dict(), "seed": seed, "time": time.time(), "course": _course_version()}
 
 
-def _run(part: Part, channel: Channel, seed: int, kernel: int) -> Report:
+def _run(part: Part, channel: Channel, seed: int, kernel: Callable[[], int] | None) -> Report:
     if note := _not_attempted(part, channel):
         return _report(part, Verdict.NOT_ATTEMPTED, note=note)
     with on_the_graph() as node:

@@ -31,7 +31,7 @@ def main() -> None:
     """Run one check, and exit at once; the first argument is the file descriptor of the socket."""
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     with suppress(RunnerStopped), _stopped_by(channel):
-        run_check(channel, _store, kernel=os.getppid())
+        run_check(channel, _store, kernel=os.getppid)
     sys.stderr.flush()
     os._exit(0)  # Skip rospy's shutdown, which sleeps for 0.6 s; the node is already unregistered.
 

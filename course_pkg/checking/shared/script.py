@@ -1,6 +1,8 @@
-"""The first line of a student's script."""
+"""A student's script: its first line, and the line in which an error occurred."""
 
 from __future__ import annotations
+
+import re
 
 from course_pkg.checking.context import CheckContext
 
@@ -43,4 +45,14 @@ def require_shebang(
         expected="#!/usr/bin/env python3",
         actual=first.replace("\r", "\\r") or "an empty line",
         hints=hint or missing,
+    )
+
+
+def own_line(name: str, printed: str) -> str:
+    """Return a hint with the number of the wrong line in the script `name`, if the output contains it."""
+    numbers = re.findall(rf'{re.escape(name)}", line (\d+)', printed)
+    return (
+        f"The error occurred in line {numbers[-1]} of {name}."
+        if numbers
+        else "An error has ended the program. Start the program in a terminal, and read the whole output."
     )

@@ -9,7 +9,7 @@ from course_pkg.chapters.ch04_define_a_service.checks.lamp import PACKAGE, built
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.commands.folder import Folder, Running
 from course_pkg.checking.peers.service_calls import Service
-from course_pkg.checking.shared.script import require_shebang
+from course_pkg.checking.shared.script import own_line, require_shebang
 from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.types import message_type
 from course_pkg.workspace import explain
@@ -162,20 +162,11 @@ def _why_not(status: int | None, printed: str, others: list[str]) -> str:
             return hint.format(*found.groups())
     if "Traceback" in printed or "Error" in printed:
         fault = explain(printed)
-        return f"{fault.problem} {fault.remedy}" if fault else _own_line(printed)
+        return f"{fault.problem} {fault.remedy}" if fault else own_line(NAME, printed)
     return (
         "The program ended, so its service does not exist any more. Check that the program "
         "reaches rospy.spin(), which waits until the node is stopped."
     )
-
-
-def _own_line(printed: str) -> str:
-    """Return a sentence with the number of the wrong line in the student's script.
-
-    If the number is not known, return "".
-    """
-    numbers = re.findall(rf'{re.escape(NAME)}", line (\d+)', printed)
-    return f"The error occurred in line {numbers[-1]} of {NAME}." if numbers else ""
 
 
 def _answers(context: CheckContext, lamp: Service, mode: int) -> None:

@@ -10,11 +10,11 @@ from course_pkg.chapters.ch07_build_a_package.checks.program import (
     can_be_imported,
     is_a_script,
     is_executable,
-    own_line,
 )
 from course_pkg.checking import CheckContext, Refuse, part
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.catkin_package import BuiltPackage, built
+from course_pkg.checking.shared.script import own_line
 from course_pkg.workspace import explain
 
 CLIENT = Program("scripts/client.py")
@@ -261,4 +261,4 @@ def _about_error(done: Finished) -> str:
     if "Traceback" not in printed:
         return f"The client ended, but it sent no request. Call {SERVICE} with the three numbers."
     fault = explain(printed)
-    return f"{fault.problem} {fault.remedy}" if fault else own_line(CLIENT, printed)
+    return f"{fault.problem} {fault.remedy}" if fault else own_line(CLIENT.name, printed)

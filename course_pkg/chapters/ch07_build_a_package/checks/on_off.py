@@ -13,13 +13,13 @@ from course_pkg.chapters.ch07_build_a_package.checks.program import (
     can_be_imported,
     is_a_script,
     is_executable,
-    own_line,
     serves,
 )
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.catkin_package import built
+from course_pkg.checking.shared.script import own_line
 from course_pkg.checking.shared.served_by import require_still_served
 from course_pkg.workspace import explain
 
@@ -188,7 +188,7 @@ def _why_not_sent(count: int, wanted: int, done: Finished) -> str:
     printed = done.out + done.err
     if "Traceback" in printed:
         fault = explain(printed)
-        return f"{fault.problem} {fault.remedy}" if fault else own_line(CLIENT, printed)
+        return f"{fault.problem} {fault.remedy}" if fault else own_line(CLIENT.name, printed)
     if done.status is None:
         return (
             "The client does not end. Check the name of the service in wait_for_service, and check that "

@@ -13,7 +13,7 @@ from course_pkg.checking import CheckContext
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.catkin_package import BuiltPackage
-from course_pkg.checking.shared.script import require_shebang
+from course_pkg.checking.shared.script import own_line, require_shebang
 from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.errors import CheckError
 from course_pkg.workspace import explain
@@ -212,18 +212,8 @@ def why_not(
             return hint.format(own=package.package.name)
     if "Traceback" in printed or "Error" in printed:
         fault = explain(printed)
-        return f"{fault.problem} {fault.remedy}" if fault else own_line(program, printed)
+        return f"{fault.problem} {fault.remedy}" if fault else own_line(program.name, printed)
     return (
         "The program ended, so its service does not exist any more. Write rospy.spin() at the end: "
         "this function waits until the node is stopped."
-    )
-
-
-def own_line(program: Program, printed: str) -> str:
-    """Return a hint with the number of the wrong line in the student's script, if the number is known."""
-    numbers = re.findall(rf'{re.escape(program.name)}", line (\d+)', printed)
-    return (
-        f"The error occurred in line {numbers[-1]} of {program.name}."
-        if numbers
-        else "An error has ended the program. Start the program in a terminal, and read the whole output."
     )

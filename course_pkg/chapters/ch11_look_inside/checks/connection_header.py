@@ -310,15 +310,25 @@ TAKEN = (
 CLOSED = "The function closed the socket. Leave the socket open, because the caller still uses it."
 
 
+def _listener() -> tuple[str, socket.socket]:
+    """Return the name of a new socket, and the socket, which listens for one connection.
+
+    The name is in Linux's abstract namespace. The socket needs no file, and can be used only in this network
+    namespace.
+    """
+    name = f"course-{secrets.token_hex(8)}"
+    listener = socket.socket(socket.AF_UNIX)
+    listener.bind(f"\0{name}")
+    listener.listen(1)
+    listener.settimeout(CONNECTING)
+    return name, listener
+
+
 class Receiver:
     """Receives the bytes that the kernel sends through one connection."""
 
     def __init__(self) -> None:
-        self.name = f"course-{secrets.token_hex(8)}"
-        self._listener = socket.socket(socket.AF_UNIX)
-        self._listener.bind(f"\0{self.name}")
-        self._listener.listen(1)
-        self._listener.settimeout(CONNECTING)
+        self.name, self._listener = _listener()
         self._data = b""
         # A thread receives the bytes, because otherwise a long answer could fill the socket and block.
         self._thread = threading.Thread(target=self._receive, daemon=True)
@@ -356,14 +366,8 @@ class OtherEnd:
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False, pause: float = 0.0) -> None:
-        # The name of the socket is in Linux's abstract namespace. The socket needs no file, and can be used
-        # only in this network namespace.
-        self.name = f"course-{secrets.token_hex(8)}"
+        self.name, self._listener = _listener()
         self._pieces, self._closes, self._pause = pieces, closes, pause
-        self._listener = socket.socket(socket.AF_UNIX)
-        self._listener.bind(f"\0{self.name}")
-        self._listener.listen(1)
-        self._listener.settimeout(CONNECTING)
         self._over = threading.Event()
         self._sock: socket.socket | None = None
         self._sending = threading.Thread(target=self._send, daemon=True)

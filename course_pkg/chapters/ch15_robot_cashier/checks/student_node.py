@@ -14,13 +14,13 @@ from course_pkg.chapters.ch07_build_a_package.checks.program import (
     can_be_imported,
     is_a_script,
     is_executable,
-    own_line,
 )
 from course_pkg.chapters.ch15_robot_cashier.checks.packages import MY_CASHIER, file_of, program
 from course_pkg.checking import CheckContext, matches
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.shared.catkin_package import BuiltPackage, copied
 from course_pkg.checking.shared.own_program import require_own_nodes
+from course_pkg.checking.shared.script import own_line
 from course_pkg.ros import Snapshot
 from course_pkg.workspace import explain
 
@@ -195,5 +195,5 @@ def why_ended(script: Program, printed: str) -> str:
         return MISSING
     if "Traceback" in printed or "Error" in printed:
         fault = explain(printed)
-        return f"{fault.problem} {fault.remedy}" if fault else own_line(script, printed)
+        return f"{fault.problem} {fault.remedy}" if fault else own_line(script.name, printed)
     return "The program reached its last line, so the node ended. Write rospy.spin() as the last line."
