@@ -235,7 +235,7 @@ decisions = {
     "wheel speed": ["topic", "many"],
     "open the gripper": ["action", "answer"],
     "full map": ["topic", "latched"],
-    "obstacle seen": ["topic", "newest"],
+    "obstacle seen": ["topic", "many"],
     "tidy the room": ["action", "long"],
     "free space on disk": ["service", "answer"],
 }

@@ -15,7 +15,7 @@ JOBS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "wheel speed": {"topic": ("newest", "many")},
     "open the gripper": {"service": ("answer",), "action": ("answer", "long")},
     "full map": {"service": ("seldom", "answer"), "topic": ("latched", "many")},
-    "obstacle seen": {"topic": ("many", "newest")},
+    "obstacle seen": {"topic": ("many",)},
     "tidy the room": {"action": ("long", "answer")},
     "free space on disk": {"service": ("seldom", "answer")},
 }
