@@ -225,6 +225,8 @@ replace("(publishers)", "(subscribers)")
 replace("dict(publishers).get(topic, [])", "{name for _, nodes in publishers for name in nodes}")
 # %% 01.4 wrong: also accepts topics whose names only begin with the given name | hint: Compare the whole name of the topic
 replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers if each.startswith(topic) for name in nodes}")
+# %% 01.4 wrong: also accepts topics whose names only end with the given name | hint: Compare the whole name of the topic
+replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers if each.endswith(topic) for name in nodes}")
 # %% 01.4 wrong: raises an error for a topic without publishers | hint: A topic without a publisher
 replace("\n    names = dict(publishers).get(topic, [])", "")
 replace("names", "dict(publishers)[topic]")

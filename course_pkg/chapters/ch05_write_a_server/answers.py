@@ -253,7 +253,7 @@ checked_service = rospy.Service("/getGeometryChecked", geometry, handle_checked_
 
 # %% 05.3 right: begins the names of the sides with a capital letter
 replace("for side in … request.height)", """sides = {"Length": request.length, "Width": request.width, "Height": request.height}
-    negative = [f"{name} is {value:.2f} m" for name, value in sides.items() if value < 0]
+    negative = [f"{name} is {value} m" for name, value in sides.items() if value < 0]
     if negative:
         raise rospy.ServiceException(negative[0])
     return request.length * request.width, request.length * request.width * request.height""")
@@ -281,6 +281,8 @@ replace("{value}, and a side cannot be negative", "negative")
 replace("{value}, and", "{int(value)}, and")
 # %% 05.3 wrong: writes the value with one decimal in the message | hint: The message contains a rounded value.
 replace("{value}, and", "{value:.1f}, and")
+# %% 05.3 wrong: writes the value with two decimals in the message | hint: The message contains a rounded value.
+replace("{value}, and", "{value:.2f}, and")
 # %% 05.3 wrong: starts another program that offers the service, and leaves the handler empty | hint: Another program provides the service with the name
 import subprocess
 import sys

@@ -58,7 +58,7 @@ def services_of(kind):
             known[name] = rosservice.get_service_type(name)
     return [name for name in known if known[name] == kind]
 
-# %% 08.1 wrong: stores the types of earlier calls | hint: The list contains a service that has ended since
+# %% 08.1 wrong: stores the types of earlier calls | hint: a service of your list has ended or has changed its type
 types_of = {}
 
 def services_of(kind):
@@ -68,6 +68,19 @@ def services_of(kind):
         except rosservice.ROSServiceIOException:
             continue
     return [name for name in types_of if types_of[name] == kind]
+
+# %% 08.1 wrong: looks up the type of a name only once | hint: a service of your list has ended or has changed its type
+type_by_name = {}
+
+def services_of(kind):
+    names = rosservice.get_service_list()
+    for name in names:
+        if name not in type_by_name:
+            try:
+                type_by_name[name] = rosservice.get_service_type(name)
+            except rosservice.ROSServiceIOException:
+                pass
+    return [name for name in names if type_by_name.get(name) == kind]
 
 # %% 08.1 wrong: returns the names with their nodes | hint: The entries of your list
 replace("names = [] … return names", """listed = rosservice.get_service_list(include_nodes=True)

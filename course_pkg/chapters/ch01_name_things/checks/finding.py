@@ -222,7 +222,7 @@ def who_really_publishes(context: CheckContext) -> None:
     At the end, call the student's function with topics that no running node publishes.
     """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
-    names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
+    names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(9)]
     # In the order of registration and in the order of names, a dead node comes between running nodes. A loop
     # that ends at a dead node therefore misses some running nodes.
     living, dead = context.random.shuffled(sorted(names[:5])[::2]), sorted(names[:5])[1::2]
@@ -233,6 +233,7 @@ def who_really_publishes(context: CheckContext) -> None:
     context.fake_node(names[5], other, NUMBER)
     context.fake_node(names[6], grave, NUMBER, alive=False)
     context.fake_node(names[7], f"{topic}_2", NUMBER)
+    context.fake_node(names[8], f"/left{topic}", NUMBER)
     context.subscribe(topic, NUMBER)
     subscribers = {name for each in context.look().topics if each.name == topic for name in each.subscribers}
     for node in nodes:
@@ -264,7 +265,7 @@ def who_really_publishes(context: CheckContext) -> None:
                 ),
             ),
             (
-                lambda actual: names[5] in actual or names[7] in actual,
+                lambda actual: {names[5], names[7], names[8]} & set(actual),
                 (
                     "Your list contains a node that publishes on a different topic. Compare the "
                     "whole name of the topic."

@@ -16,6 +16,8 @@ NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 # The relative error of a float32 is less than 1e-7. If a number was rounded to two decimals, its relative
 # error is usually larger than `NEAR`.
 NEAR = 1e-5
+# In an error message, an exact value may differ from the side by this number of metres.
+EXACT = 1e-6
 # A message may contain at most this many numbers. If a message contains many numbers, one of them may equal
 # the right value by chance.
 MANY = 6
@@ -167,8 +169,7 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
             near=1e-3,
         )
     context.fulfilled(MEASURED)
-    # A float32 stores the negative sides exactly. No negative side has only one decimal, so the error message
-    # must contain at least two decimals.
+    # A float32 stores the negative sides exactly. One of them has ten decimals, so a rounded value is wrong.
     fraction = context.random.choice([0.25, 0.375, 0.75])
     depths = [*(-depth - fraction for depth in context.random.integers(2, 1, 49)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
@@ -233,7 +234,7 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
             "the error message contains the name and the value of the side",
             holds=named == [side]
             and len(numbers) <= MANY
-            and any(abs(number - value) < 0.01 for number in numbers),
+            and any(abs(number - value) < EXACT for number in numbers),
             expected=f"a message that contains {side} and {value:g}, and no other side",
             actual=error,
             hints=_unclear(named, numbers, side, value, reason),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
+
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.scripted_server import ScriptedServer
@@ -27,8 +29,8 @@ GONE = (
     "and continue with the next service."
 )
 ENDED = (
-    "The list contains a service that has ended since the last call of your function. Get the types of all "
-    "services in each call."
+    "Since the last call of your function, a service of your list has ended or has changed its type. Get the "
+    "types of all services in each call."
 )
 ABSENT = (
     "Your list contains names of services that do not exist now. Get the names from the master, in each call "
@@ -87,11 +89,14 @@ def find_by_type(context: CheckContext) -> None:
         servers.append(context.serve(name, kind, lambda _: {}))
         mine.add(name)
         _finds(context, kind, hint, mine)
-    ended = first[0]
+    ended, killed = first
     servers[0].leave()
-    mine.discard(ended)
-    _finds(context, kind, SOME, mine, ended)
-    _finds(context, other, SOME, {misnamed})
+    _finds(context, kind, SOME, mine - {ended}, {ended})
+    servers[1].leave()
+    context.absent(killed, stale=True)
+    servers.append(context.serve(ended, other, lambda _: {}))
+    _finds(context, kind, SOME, mine - {ended, killed}, {ended, killed})
+    _finds(context, other, SOME, {misnamed, ended})
     context.expect(
         "the list is empty for a type that no node serves",
         expected=[],
@@ -117,11 +122,13 @@ def _calls_no_service(context: CheckContext, servers: list[ScriptedServer]) -> N
         )
 
 
-def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], ended: str = "") -> None:
+def _finds(
+    context: CheckContext, kind: str, incomplete: str, mine: set[str], former: Set[str] = frozenset()
+) -> None:
     """Assert that the student's function returns all services of the type `kind`.
 
     `mine` contains the names of the check's services. `incomplete` is the hint for a missing service. The
-    service `ended` no longer exists.
+    services `former` had this type, but have ended, or have another type now.
     """
     names = context.run("services_of", kind, hints=ERRORS).returned()
     _is_a_list_of_names(context, names)
@@ -136,7 +143,7 @@ def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], en
         expected=f"a list without {', '.join(extra)}",
         actual=names,
         hints=ENDED
-        if extra == [ended]
+        if former.issuperset(extra)
         else ABSENT
         if all(name.startswith("/") and name not in types for name in extra)
         else _why_wrong({types.get(name) for name in extra}, kind),
