@@ -17,7 +17,7 @@ replace("getGeometry:=measure", "getGeometry:=/measure")
 replace("__ns:=/{room} ", "")
 # %% 01.1 wrong: does not rename the service | hint: The service is in the namespace
 replace(" getGeometry:=measure", "")
-# %% 01.1 wrong: exchanges the old and the new name of the service | hint: the old name comes first
+# %% 01.1 wrong: exchanges the old and the new name of the service | hint: with the old name first
 replace("getGeometry:=measure", "measure:=getGeometry")
 # %% 01.1 wrong: does not rename the node | hint: Change the name of the
 replace(" __name:=measurer", "")
@@ -30,6 +30,8 @@ replace("{room}", "kitchen")
 replace(":=", "=", times=3)
 # %% 01.1 wrong: writes spaces around := | hint: The service still has its old
 replace(":=", " := ", times=3)
+# %% 01.1 wrong: writes spaces around := for the service | hint: with the old name first
+replace("Geometry:=m", "Geometry := m")
 # %% 01.1 wrong: runs another program | hint: The command has to begin with
 replace("server", "pulse")
 # %% 01.1 wrong: uses roslaunch | hint: The command has to begin with

@@ -51,6 +51,10 @@ replace("patience=seconds", "patience=0")
 # %% 03.1 wrong: pauses before the first call | hint: A customer was there, but poll()
 replace("end:", "end:\n        time.sleep(1 / rate)")
 replace("return answer.number\n        time.sleep(1 / rate)", "return answer.number")
+# %% 03.1 wrong: pauses before it returns the number | hint: poll() paused before it returned
+replace("return answer.number\n        time.sleep(1 / rate)", "found = answer.number\n        time.sleep(1 / rate)")
+replace("if answer.detected:\n", "found = None\n        if answer.detected:\n")
+replace("\n    return None", "\n        if found:\n            return found\n    return None")
 # %% 03.1 wrong: returns True | hint: poll() returned the value of
 replace("return answer.number", "return True")
 # %% 03.1 wrong: returns the whole response | hint: poll() returned the whole response.

@@ -51,7 +51,7 @@ replace("geometry, handle_geometry)", "geometry, handle_geometry(geometry._reque
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', "None")
 # %% 05.1 wrong: adds instead of multiplying | hint: Your area is width +
 replace("width * request", "width + request")
-# %% 05.1 wrong: returns the area of the front instead of the floor | hint: the area of the front
+# %% 05.1 wrong: returns the area of the front instead of the floor | hint: Your area is the area of a wall
 replace("length", "height")
 replace("(area=area, volume=area * request.height)", "(area=area, volume=area * request.length)")
 # %% 05.1 wrong: returns the volume first | hint: The field `area` contains the

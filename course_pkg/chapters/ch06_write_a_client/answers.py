@@ -100,6 +100,8 @@ replace("\n    return True", "")
 replace("timeout=seconds", "timeout=0.1")
 # %% 06.2 wrong: returns None if there is no service | hint: When the time was over
 replace("except rospy … return True", '    return True\n    except rospy.ROSException:\n        print("not there")')
+# %% 06.2 wrong: removes the fraction from the time limit | hint: because it can be a fraction
+replace("timeout=seconds", "timeout=int(seconds)")
 # %% 06.2 wrong: uses a fixed time limit | hint: The function waited longer than the time
 replace("timeout=seconds", "timeout=2")
 

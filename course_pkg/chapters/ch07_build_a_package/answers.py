@@ -41,7 +41,7 @@ replace("MIT", "TODO")
 replace("A service that measures boxes.", "The my_geometry&#32;package")
 # %% 07.1 wrong: writes TODO with a character reference | hint: Write the name of a licence,
 replace("MIT", "TOD&#79;")
-# %% 07.1 wrong: leaves the generated email address | hint: The address in the maintainer
+# %% 07.1 wrong: leaves the generated email address | hint: still ends with @todo.todo
 replace("you@example.com", "you@todo.todo")
 # %% 07.1 wrong: uses capital letters in the name | hint: lower-case letters
 replace("<name>my_geometry", "<name>My Geometry")
@@ -233,6 +233,10 @@ replace("request.width * request.length", "2 * (request.width + request.length)"
 # %% 07.4 wrong: returns width times height as the area | hint: Your area is width times
 replace("request.width * request.length", "request.width * request.height")
 replace("area * request.height", "area * request.length")
+# %% 07.4 wrong: rounds the area to two digits | hint: Do not round the area
+replace("area=area, ", "area=round(area, 2), ")
+# %% 07.4 wrong: rounds the volume to three digits | hint: Do not round the volume
+replace("area * request.height", "round(area * request.height, 3)")
 # %% 07.4 wrong: returns an empty response | hint: The area is 0.0, because
 replace("geometryResponse(area=area, volume=area * request.height)", "geometryResponse()")
 # %% 07.4 wrong: squares the width | hint: Compute the area from request.width and request.length
@@ -579,6 +583,9 @@ replace('rospy.wait_for_service("/onOff", timeout … ).state}")', "main()")
 replace("    for _ in range(int(sys.argv[1])):", "    for _ in range(1):")
 # %% 07.10 wrong: always makes ten calls | hint: The number of calls is
 replace("range(int(sys.argv[1]))", "range(10)")
+# %% 07.10 wrong: calls the service only for a new number | hint: even if the client has sent the same number
+replace("name_state(number).state", "states.setdefault(number, name_state(number).state) if number not in states else states[number]")
+replace("    for _ in", "    states = {}\n    for _ in")
 # %% 07.10 wrong: prints states without a call | hint: The client ended, but it did not call /onOff
 replace("name_state(number).state", '"ON" if number else "OFF"')
 # %% 07.10 wrong: makes one call too many | hint: The client made one call too

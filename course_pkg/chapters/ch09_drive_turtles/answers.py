@@ -178,9 +178,9 @@ replace('(before=before)', '()')
 replace('before=before', 'before=int(before)')
 # %% 09.3 wrong: returns the old pause instead of the old rate | hint: The field `before` has a wrong value
 replace('before=before', 'before=1 / before')
-# %% 09.3 wrong: accepts every rate | hint: but this value is not allowed
+# %% 09.3 wrong: accepts every rate | hint: is not allowed, but the client got a response
 replace('    if not 0 < request.rate <= 100:\n        raise rospy.ServiceException(f"{request.rate} is not above 0 and at most 100")\n', '    if request.rate == 0:\n        raise rospy.ServiceException("0")\n')
-# %% 09.3 wrong: accepts the rate nan | hint: The node accepted nan
+# %% 09.3 wrong: accepts the rate nan | hint: The value nan is not allowed
 replace('if not 0 < request.rate <= 100', 'if request.rate <= 0 or request.rate > 100')
 # %% 09.3 wrong: refuses the rate 100 | hint: The node refused an allowed rate
 replace('<= 100', '< 100')
@@ -284,7 +284,7 @@ replace('        publisher.publish(driver.velocity())\n', '        if driver.mov
 replace('self.speed = 1.0', 'self.speed = 2.0')
 # %% 09.4 wrong: uses a fixed publishing rate | hint: Copy the code of /change_rate from your program pubvel_toggle_plus
 replace('1 / driver.frequency', '0.5')
-# %% 09.4 wrong: accepts the rate nan | hint: The node accepted nan
+# %% 09.4 wrong: accepts the rate nan | hint: The value nan is not allowed
 replace("if not 0 < request.rate <= 100:", "if request.rate <= 0 or request.rate > 100:")
 # %% 09.4 wrong: uses a fixed speed | hint: After the call, the turtle still moves at 1.0 m/s
 replace('linear.x = self.speed', 'linear.x = 1.0')
@@ -302,7 +302,7 @@ replace('ChangeSpeedResponse(before=before)', 'ChangeSpeedResponse()')
 replace('if not math.isfinite(request.speed)', 'if not 0 <= request.speed < 1000')
 # %% 09.4 wrong: refuses the speed 0 | hint: The node refused an allowed speed
 replace("if not math.isfinite(request.speed)", "if not request.speed or not math.isfinite(request.speed)")
-# %% 09.4 wrong: accepts the speed inf | hint: accept only finite numbers
+# %% 09.4 wrong: accepts the speed inf | hint: Accept only finite numbers
 replace('not math.isfinite(request.speed)', 'request.speed != request.speed or request.speed == -math.inf')
 # %% 09.4 wrong: does not stop | hint: The turtle still moves after a call with data=False
 replace('self.moving = request.data\n', 'self.stopped = not request.data\n')
@@ -385,7 +385,7 @@ replace('Twist, publisher.publish)', 'Twist, lambda message: None)')
 replace('Twist, publisher.publish)', 'Twist, lambda message: [publisher.publish(message) for _ in range(2)])')
 # %% 09.5 wrong: does not publish velocities without linear.x | hint: Some velocities are missing
 replace("Twist, publisher.publish)", "Twist, lambda message: publisher.publish(message) if message.linear.x else None)")
-# %% 09.5 wrong: does not publish equal velocities again | hint: Some velocities are missing
+# %% 09.5 wrong: does not publish equal velocities again | hint: A velocity that is equal to the previous velocity is missing
 replace("    publisher = rospy", """    last = [None]
 
     def follow(message):

@@ -226,7 +226,7 @@ replace("\n  return 1;", "\n  return 0;")
 replace("box.response.volume", "box.request.length * box.request.width * box.request.height")
 # %% 13.3 wrong: calculates the volume if the server refuses | hint: but the program printed a volume that the server did not send
 replace("if (client.call(box)) {", "if (!client.call(box)) box.response.volume = box.request.length * box.request.width * box.request.height;\n    {")
-# %% 13.3 wrong: does not pause | hint: so the server probably refuses this call, too
+# %% 13.3 wrong: does not pause | hint: so the server probably refuses the next call, too
 replace("\n    ros::WallDuration(0.2).sleep();", "")
 # %% 13.3 wrong: waits for five seconds | hint: s, which is too long
 replace("(2)", "(5)")

@@ -165,7 +165,7 @@ replace('double used', 'int used')
 replace('    response.before = frequency;\n    frequency = request.rate;\n', '    frequency = request.rate;\n    response.before = frequency;\n')
 # %% 14.3 wrong: returns an empty response | hint: The field `before` has its default value, 0.0
 replace('    response.before = frequency;\n', '')
-# %% 14.3 wrong: accepts the rate nan | hint: The node accepted nan
+# %% 14.3 wrong: accepts the rate nan | hint: The value nan is not allowed
 replace('!(request.rate > 0 && request.rate <= 100)', 'request.rate <= 0 || request.rate > 100')
 
 # %% 14.4 right: uses boost::bind
@@ -266,7 +266,7 @@ int main(int argc, char** argv) {
 replace('bool moving = true', 'bool moving = false')
 # %% 14.4 wrong: publishes nothing while it is stopped | hint: No velocity arrived for 4 s
 replace('    publisher.publish(message);\n', '    if (state.moving) publisher.publish(message);\n')
-# %% 14.4 wrong: accepts an infinite speed | hint: The node accepted
+# %% 14.4 wrong: accepts an infinite speed | hint: Accept only finite numbers
 replace('!std::isfinite(request.speed)', 'std::isnan(request.speed)')
 # %% 14.4 wrong: limits the speed | hint: The node refused an allowed speed
 replace('!std::isfinite(request.speed)', '!(std::fabs(request.speed) <= 1000)')
@@ -343,12 +343,14 @@ replace('  ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();\n', '  ros::
 # %% 14.7 wrong: ends after the start of the spinner | hint: ros::waitForShutdown() with an AsyncSpinner
 replace("""ros::MultiThreadedSpinner spinner(4);
   spinner.spin();""", "ros::AsyncSpinner threads(8);\n  threads.start();")
-# %% 14.7 wrong: starts only one thread | hint: The handler of /report waits for /battery, but no free thread can execute the
+# %% 14.7 wrong: starts only one thread | hint: no other thread executed the handler of /battery … Use a spinner with at least
 replace('spinner(4)', 'spinner(1)')
 # %% 14.7 wrong: uses a second queue with one thread | hint: The program uses a spinner with only one thread
 replace('report_threads.cpp', 'report_threads.cpp\n#include <ros/callback_queue.h>')
 replace('ros::ServiceServer first = node.', 'ros::CallbackQueue queue;\n  ros::NodeHandle other;\n  other.setCallbackQueue(&queue);\n  ros::ServiceServer first = other.')
 replace('ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();', 'ros::AsyncSpinner spinner(1, &queue);\n  spinner.start();\n  ros::spin();')
+# %% 14.7 wrong: creates a spinner that main does not use | hint: The program creates a spinner, but main() does not use it
+replace('spinner.spin();', 'ros::spin();')
 # %% 14.7 wrong: starts only three threads | hint: One call works, but three calls at the same time do not end
 replace('spinner(4)', 'spinner(3)')
 # %% 14.7 wrong: does not call /battery | hint: Your two handlers are different
@@ -386,7 +388,7 @@ replace('other.advertise', 'node.advertise')
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 # %% 14.8 wrong: does not start a spinner for the queue | hint: No thread executes the handler of /battery
 replace('  spinner.start();\n', '')
-# %% 14.8 wrong: uses the second queue for both services | hint: The handler of /report waits for /battery, but no free thread can execute the
+# %% 14.8 wrong: uses the second queue for both services | hint: no other thread executed the handler of /battery … Handle the second queue in a separate thread
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 # %% 14.8 wrong: uses the second queue with four threads for both services | hint: One call works, but eight calls at the same time do not end
 replace('node.advertiseService("report"', 'other.advertiseService("report"')

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.context import CheckContext
 from course_pkg.checking.plain_values import Message
+
+# The relative error of a float32 is less than this number.
+FLOAT32 = 1e-7
+# If a number was rounded to two decimals, its relative error is usually larger than `NEAR`.
+NEAR = 1e-5
 
 
 def random_boxes(context: CheckContext) -> list[list[float]]:
@@ -18,6 +26,13 @@ def random_boxes(context: CheckContext) -> list[list[float]]:
     boxes = [context.random.numbers(3, low, high, digits=digits) for low, high, digits in sizes]
     boxes.append([context.random.number(0.5, 90.0)] * 3)
     return [boxes[0], *context.random.shuffled(boxes[1:])]
+
+
+def is_rounded(right: float) -> Callable[[float], bool]:
+    """Return a condition for the number `right` with at most four decimals."""
+    return lambda actual: any(
+        math.isclose(actual, round(right, digits), rel_tol=FLOAT32) for digits in range(5)
+    )
 
 
 def expect_geometry(
@@ -34,12 +49,12 @@ def expect_geometry(
 
     `area` and `volume` are the hints for the two fields of the response.
     """
-    context.expect(assertion, expected=base, actual=response.area, near=1e-3, hints=area)
+    context.expect(assertion, expected=base, actual=response.area, near=NEAR, hints=area)
     context.expect(
         "volume is area times height",
         expected=base * height,
         actual=response.volume,
-        near=1e-3,
+        near=NEAR,
         hints=volume,
     )
 

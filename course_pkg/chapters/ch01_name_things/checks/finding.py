@@ -64,8 +64,8 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
                     NO_RETURN
                     if servers[wanted].requests
                     else (
-                        f"The service {wanted} exists, but your function returned None. Compare the text "
-                        "after the last slash of each name: a name can have any number of slashes."
+                        f"The service {wanted} exists, but your function returned None. In each call, get "
+                        "the list of services again, and compare the text after the last slash of each name."
                     ),
                 ),
                 *((other, LOOKS_LIKE_IT) for other in others),

@@ -211,8 +211,8 @@ def _astray(room: str, found: str, node: str) -> str:
         )
     if found == f"/{room}/getGeometry":
         return (
-            "The service is in the namespace of the room, but it still has its old name. In a "
-            "remapping `old:=new`, the old name comes first."
+            "The service is in the namespace of the room, but it still has its old name. Write "
+            "the remapping as `old:=new`, with the old name first and without spaces."
         )
     if found == f"/{room}/measurer/measure":
         return (

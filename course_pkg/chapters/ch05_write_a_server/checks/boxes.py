@@ -6,16 +6,13 @@ from itertools import combinations
 from math import prod
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
-from course_pkg.checking.assertions import Hints
+from course_pkg.checking.assertions import Hints, same
 from course_pkg.checking.peers.service_calls import Service
-from course_pkg.checking.shared.geometry import random_boxes
+from course_pkg.checking.shared.geometry import NEAR, is_rounded, random_boxes
 from course_pkg.checking.shared.served_by import require_served_by_notebook, require_still_served
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-# The relative error of a float32 is less than 1e-7. If a number was rounded to two decimals, its relative
-# error is usually larger than `NEAR`.
-NEAR = 1e-5
 # In an error message, an exact value may differ from the side by this number of metres.
 EXACT = 1e-6
 # A message may contain at most this many numbers. If a message contains many numbers, one of them may equal
@@ -88,7 +85,7 @@ def _about_volume(width: float, length: float, height: float) -> Hints:
             ("Your volume is in cubic centimetres. Do not convert the sides: return cubic metres."),
         ),
         (
-            lambda actual: abs(actual - area * height) <= 1,
+            is_rounded(area * height),
             "Your volume is rounded. Return all digits of the volume.",
         ),
         (ANYTHING, "The volume is wrong. Multiply all three sides: width, length and height."),
@@ -111,8 +108,8 @@ def _about_area(width: float, length: float, height: float) -> Hints:
         (0.0, "The area is 0, because ROS sends 0 for a number that you do not set. Set the field `area`."),
         (width + length, "Your area is width + length. Multiply the two sides; do not add them."),
         (
-            width * height,
-            "Your area is width times height, which is the area of the front. Return the area of the floor.",
+            lambda actual: any(same(actual, side * height, NEAR) for side in (width, length)),
+            "Your area is the area of a wall. Return the area of the floor, which is width times length.",
         ),
         (
             width * length * height,
@@ -124,7 +121,7 @@ def _about_area(width: float, length: float, height: float) -> Hints:
             ("This area is in square centimetres. Do not convert the sides, because they are in metres."),
         ),
         (
-            lambda actual: abs(actual - width * length) <= 1,
+            is_rounded(width * length),
             "The area is rounded. Return the area without rounding.",
         ),
         (

@@ -46,7 +46,7 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
         context.fail(
             f"the Stop button ends {function}()",
             expected="the function ends when you press the Stop button",
-            actual="the function caught the KeyboardInterrupt and did not end",
+            actual="the function caught the KeyboardInterrupt",
             hint=(
                 "The function catches the KeyboardInterrupt that the Stop button causes. Catch only "
                 f"the exceptions that you expect: {catch}."

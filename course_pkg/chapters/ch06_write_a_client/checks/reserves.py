@@ -91,8 +91,8 @@ def ask_the_next_one(context: CheckContext) -> None:
         expected=0,
         actual=len(reserve.requests),
         hints=(
-            "The first service responded, but the function also called the second service. "
-            "Return as soon as you have a volume."
+            "The first service responded, but the function also called the second service. Call a service "
+            "only after the previous call has failed, and return as soon as you have a volume."
         ),
     )
     context.expect(

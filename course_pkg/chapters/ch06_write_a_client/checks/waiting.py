@@ -189,6 +189,11 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
         hints=[
             (matches("TimesUp"), too_long),
             (
+                matches("timeout must be non-zero"),
+                "The argument `seconds` was 0.5, but the timeout of wait_for_service was 0. Pass `seconds` "
+                "without any change, because it can be a fraction.",
+            ),
+            (
                 matches("ROSException"),
                 "wait_for_service raises rospy.ROSException when the time is over. Catch this exception.",
             ),

@@ -207,8 +207,8 @@ def _why_not_sent(count: int, wanted: int, done: Finished) -> str:
             "first argument is 1."
         )
     return (
-        "The number of calls is wrong. The first argument contains the number of calls that the "
-        "client has to make."
+        "The number of calls is wrong. Make as many calls as the first argument says, even if the client "
+        "has sent the same number before."
     )
 
 

@@ -13,7 +13,7 @@ from course_pkg.chapters.ch07_build_a_package.checks.program import (
 from course_pkg.checking import ANYTHING, CheckContext, part
 from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.shared.catkin_package import built
-from course_pkg.checking.shared.geometry import expect_geometry, random_boxes
+from course_pkg.checking.shared.geometry import expect_geometry, is_rounded, random_boxes
 from course_pkg.checking.shared.served_by import require_still_served
 
 SERVER = Program("scripts/server.py", "SERVER_NODE", "/getGeometry")
@@ -75,6 +75,7 @@ def _answers(context: CheckContext, measure: Service, length: float, width: floa
             ),
             (2 * (width + length), "Your area is the perimeter. Return width times length."),
             (width * height, "Your area is width times height. Return the area of the floor."),
+            (is_rounded(width * length), "The area is rounded. Do not round the area."),
             (ANYTHING, "The area is wrong. Compute the area from request.width and request.length."),
         ],
         volume=[
@@ -82,6 +83,10 @@ def _answers(context: CheckContext, measure: Service, length: float, width: floa
                 0.0,
                 "The volume is 0.0, because the server did not set the field. Set the volume to "
                 "area times height.",
+            ),
+            (
+                is_rounded(width * length * height),
+                "The volume is rounded. Do not round the volume.",
             ),
             (ANYTHING, "The volume is wrong. Compute the volume from the area and request.height."),
         ],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
+from itertools import groupby
 
 from course_pkg.chapters.ch09_drive_turtles.checks.spawn import LATE, LIMIT, SPAWN, TURTLE
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
@@ -262,6 +263,7 @@ def _the_last(context: CheckContext, driver: Driver, subscription: Subscription)
 
 def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscription: Subscription) -> None:
     received = [arrival.fields for arrival in subscription.arrivals]
+    without_repeats = [velocity for velocity, _ in groupby(velocities)]
     context.expect(
         "the program publishes each velocity once",
         expected=COUNT,
@@ -279,6 +281,13 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
                 (
                     "Some velocities were published more than once. Publish each message once in the "
                     "callback, not in a loop."
+                ),
+            ),
+            (
+                (lambda _: same(without_repeats, received, 1e-9)),
+                (
+                    "A velocity that is equal to the previous velocity is missing. Publish each message, "
+                    "even if the message repeats the previous one."
                 ),
             ),
             (ANYTHING, "Some velocities are missing. Publish each message immediately in the callback."),

@@ -192,12 +192,15 @@ def refuses(context: CheckContext, service: Service, assertion: str, **fields: f
     """Assert that the handler refuses a request; an unexpected exception is not a refusal."""
     ((field, number),) = fields.items()
     if number != number:
-        why = "every comparison with nan is False, so test for nan separately"
+        why = "Every comparison with nan is False, so test for nan separately"
     elif field == "speed":  # The exercise sets no limits for a speed.
-        why = "accept only finite numbers (math.isfinite, in C++ std::isfinite)"
+        why = "Accept only finite numbers (math.isfinite, in C++ std::isfinite)"
     else:
-        why = "compare the number with the limits in the exercise"
-    hint = f"The node accepted {number:g}, but this value is not allowed: {why}."
+        why = "Compare the number with the limits in the exercise"
+    hint = (
+        f"The value {number:g} is not allowed, but the client got a response without an error. {why}, and "
+        "refuse a wrong value: raise rospy.ServiceException, or return false in C++."
+    )
     error = service.refused(assertion, saying="", hints=hint, **fields)
     context.require(
         assertion,

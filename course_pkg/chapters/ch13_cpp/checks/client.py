@@ -194,11 +194,11 @@ def _pauses_between_calls(context: CheckContext, *runs: list[float]) -> None:
     if shortest < PAUSE:
         context.fail(
             "the program pauses between two calls",
-            expected="a short pause after each refusal",
+            expected=f"a pause of at least {1000 * PAUSE:.0f} ms after each refusal",
             actual=f"the next call after {1000 * shortest:.1f} ms",
             hint=(
-                "The program makes the next call immediately after a refused call, so the server "
-                "probably refuses this call, too. Add ros::WallDuration(0.2).sleep() between two calls."
+                "The pause after a refused call is missing or too short, so the server probably refuses the "
+                "next call, too. Write ros::WallDuration(0.2).sleep() between two calls."
             ),
         )
 

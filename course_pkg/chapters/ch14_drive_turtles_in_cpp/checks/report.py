@@ -19,9 +19,14 @@ GROUPS = 30  # The check makes this number of groups of simultaneous calls.
 FAILED = 2  # The check accepts failed calls in at most this number of groups.
 FEW, MANY = 3, 8  # FEW and MANY are the numbers of simultaneous clients in the two checks.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
-HANGS = (
-    "The handler of /report waits for /battery, but no free thread can execute the handler of "
-    "/battery. Use more threads, or a separate queue for /battery."
+HANGS = "The handler of /report waits for /battery, but no other thread executed the handler of /battery. "
+FEW_THREADS = f"{HANGS}Use a spinner with at least {FEW + 1} threads."
+ONE_THREAD = (
+    f"{HANGS}Handle the second queue in a separate thread, such as ros::AsyncSpinner spinner(1, &queue)."
+)
+NOT_USED = (
+    "The program creates a spinner, but main() does not use it: ros::spin() without an argument handles all "
+    "calls in one thread. Call spin() of the MultiThreadedSpinner, or start() of the AsyncSpinner."
 )
 NOT_SPUN = (
     "No thread executes the handler of /battery. Start a spinner for the queue that contains the calls of "
@@ -92,8 +97,10 @@ def more_threads(context: CheckContext) -> None:
         FEW,
         (
             "One call works, but three calls at the same time do not end. Each call of /report "
-            "uses one thread until the call ends, so add one more thread for /battery."
+            "uses one thread until the call ends, and /battery needs one more. Use at least "
+            f"{FEW + 1} threads."
         ),
+        hangs=FEW_THREADS if _uses_its_spinner(_code(context, THREADS)) else NOT_USED,
     )
 
 
@@ -138,11 +145,20 @@ def own_queue(context: CheckContext) -> None:
             "One call works, but eight calls at the same time do not end. Put only /battery into the "
             "new queue, and handle this queue in a separate thread."
         ),
+        hangs=ONE_THREAD,
     )
 
 
 def _code(context: CheckContext, program: TurtleProgram) -> str:
     return COMMENT.sub("", context.source(f"file:{program.path}"))
+
+
+def _uses_its_spinner(code: str) -> bool:
+    """Return whether `code` starts one of its spinners, or passes a spinner to a function."""
+    names = re.findall(r"\b(?:MultiThreaded|Async)Spinner\s+(\w+)", code)
+    return not names or any(
+        re.search(rf"\b{name}\s*\.\s*(spin|start)\b|[(,&]\s*{name}\s*[,)]", code) for name in names
+    )
 
 
 def _leaves_battery_in_the_global_queue(code: str) -> bool:
@@ -182,13 +198,15 @@ def _calls_battery(context: CheckContext, *, holds: bool) -> None:
     )
 
 
-def _reports(context: CheckContext, program: TurtleProgram, clients: int, too_few: str) -> None:
+def _reports(
+    context: CheckContext, program: TurtleProgram, clients: int, too_few: str, *, hangs: str
+) -> None:
     level = context.random.integer(3, 79)
     world = World(context, program.prepare(context, program), program, services=SERVICES)
     with world.run(f"_level:={level}") as running:
         world.serves(running, *SERVICES)
         world.service("battery", "std_srvs/Trigger", [(matches("TimesUp"), NOT_SPUN)])()
-        _answers(context, world.service("report", "std_srvs/Trigger", _why(HANGS)), level)
+        _answers(context, world.service("report", "std_srvs/Trigger", _why(hangs)), level)
         report = world.service("report", "std_srvs/Trigger", _why(too_few))
         for reply in _groups(report, clients):
             context.require(

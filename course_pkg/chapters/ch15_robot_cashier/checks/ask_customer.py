@@ -107,7 +107,7 @@ def the_client(context: CheckContext) -> None:
     """Run the program in four cases: the service starts late, responds, refuses, or does not exist."""
     package = examined(context, NAME)
     with ExitStack() as ending:
-        detector = _Detector(context.random.number(3.0, 30.0, digits=1))
+        detector = _Detector(round(context.random.integer(3, 30) + context.random.number(0.2, 0.8), 1))
         usual = _Detector(detector.wait)
         early, default, refused, alone = (
             Run(context, package, ending, given)
@@ -235,7 +235,14 @@ def _calls(context: CheckContext, run: Run, detector: _Detector) -> None:
         expected=detector.wait,
         actual=calls[0],
         near=1e-3,
-        hints=PARAMETER,
+        hints=[
+            (
+                float(int(detector.wait)),
+                "The value of ~wait was a fraction, but `patience` was a whole number. Send the "
+                "value of the parameter without any change.",
+            ),
+            (ANYTHING, PARAMETER),
+        ],
     )
     _prints(context, run, "customer")
 
