@@ -51,7 +51,7 @@ def test_no_part_of_a_chapter_in_several_modules_is_forgotten() -> None:
     modules = [
         importlib.import_module(found.name)
         for package in map(importlib.import_module, checks)
-        for found in pkgutil.iter_modules(package.__path__, f"{package.__name__}.")
+        for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
     ] + [importlib.import_module(name) for name in checks]
     declared = {
         value.check for module in modules for value in vars(module).values() if isinstance(value, Part)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import threading
-
+from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_crowd import ANOTHER_NUMBER, sells_to_fifty
 from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_in_kernel import (
-    CALLERS,
     KERNEL_CODE,
     MANY,
     ONE,
@@ -13,41 +11,24 @@ from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_in_kernel import (
     TRIGGER,
     CheckedShelf,
 )
+from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_till import Till
 from course_pkg.checking import ANYTHING, CheckContext, Its, Refuse, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.scripted_server import Act, HangUp
 from course_pkg.checking.peers.service_calls import Service
-from course_pkg.checking.plain_values import Message, Value
 from course_pkg.checking.result import Result
-from course_pkg.checking.shared.request_ids import from_a_counter
-from course_pkg.errors import GraphError
-from course_pkg.ros.node.proxy import BoundedProxy
 
 CHARGE = "course_pkg/Charge"
-MEETING = 3.0  # A call to the till waits up to this time in s for other calls.
 ABSENT = 4.0  # If no till runs, a sale may take up to this time in s on a busy machine.
-CALL_BACK = 2.0  # After this time in s, the till continues without a response from the shop.
 LOCKED = (
     "Your handler holds the lock while it calls the till, so /left cannot respond. Release the lock "
     "before you call the till's service."
-)
-SERIAL = (
-    "The till received only a few calls at the same time, because your handler holds a lock or a "
-    "semaphore during the call. Release the lock or semaphore before you call the till's service."
 )
 STUCK = (
     "A client waits forever, because a lock was not released. Use `with`, which releases the lock "
     "in every case."
 )
 ERRORS = [*SHELF_ERRORS, (matches("TimesUp"), STUCK)]
-TORN = (
-    "Another thread changed the shelf between your call of read() and your call of write(). Hold the "
-    "same lock during both calls, and also read the shelf again before you put a thing back."
-)
-ANOTHER_NUMBER = (
-    "The number on the shelf is different from the number that /left returns. Use the methods "
-    "read() and write(count) of the shelf, and do not replace these methods."
-)
 SOLD_OUT = (
     '"Sold out" is a normal response of /buy, not an error. Return success=False instead of '
     "raising an exception."
@@ -61,72 +42,6 @@ NO_TILL = (
     "No server offers the till's service, but the handler waits for this service without a time limit. "
     "Call the service immediately: without a server, the call raises rospy.ServiceException."
 )
-
-
-class Till:
-    """A till that charges amounts; while the till handles its first call, it calls a service of the shop.
-
-    If many clients call the till at the same time, its first call waits for the other calls; `crowd` is the
-    total number of calls.
-    """
-
-    def __init__(self, context: CheckContext, left: str, shelf: CheckedShelf) -> None:
-        # `acts` contains the results of the next calls; None means that the till charges the amount.
-        self.acts: list[Act | None] = []
-        self.charged: list[int] = []  # The amounts are in cents.
-        self.ids: list[str] = []
-        # `answers` contains the shop's responses to calls of /left; "" means that there was no response yet.
-        self.answers: list[str] = []
-        # `on_shelf` contains the number of things on the shelf during each call.
-        self.on_shelf: list[Value] = []
-        self._shelf = shelf
-        self._first = context.random.integer(1000, 9000)
-        self._left, self._kind = left, context.service_class(TRIGGER)
-        self._inside, self._meets = 0, False
-        self.crowd = context.random.integer(4, 6)
-        self.together = 0  # `together` is the maximum number of simultaneous calls.
-        self._changed = threading.Condition()
-
-    def await_crowd(self) -> None:
-        """Let the next calls wait until `crowd` calls have arrived, but for at most `MEETING` s."""
-        self._meets = True
-
-    def __call__(self, request: Message) -> Act:
-        """Handle a request to the scripted server."""
-        with self._changed:
-            self._inside += 1
-            self.together = max(self.together, self._inside)
-            self._changed.notify_all()
-            if self._meets:
-                self._changed.wait_for(lambda: self.together >= self.crowd, MEETING)
-                self._meets = False
-        try:
-            return self._act(request)
-        finally:
-            with self._changed:
-                self._inside -= 1
-
-    def _act(self, request: Message) -> Act:
-        with self._changed:
-            calls_back = not self.answers
-            if calls_back:
-                self.answers.append("")
-            act = self.acts.pop(0) if self.acts else None
-            self.ids.append(request.request_id)
-            self.on_shelf.append(self._shelf.things)
-            if act is None:
-                self.charged.append(request.cents)
-            receipt = self._first + len(self.charged)
-        if calls_back:
-            self.answers[0] = self._call_back()
-        return {"receipt": receipt} if act is None else act
-
-    def _call_back(self) -> str:
-        try:
-            return str(BoundedProxy(self._left, self._kind, timeout=CALL_BACK).call().message)
-        except (GraphError, OSError) as error:
-            return f"{type(error).__name__}"
-
 
 SOLD = "Sell one thing, and do not hold the lock while you call the till's service."
 PUT_BACK = "Put the thing back if the call of the till's service fails."
@@ -172,7 +87,7 @@ def no_lock_across_a_call(context: CheckContext) -> None:
         context.fulfilled(SOLD)
         _fails_to_sell(context, buying, looking, till, count - 1)
         context.fulfilled(PUT_BACK)
-        _sells_to_fifty(context, buying, looking, till, shelf, count - 1)
+        sells_to_fifty(context, buying, looking, till, shelf, count - 1)
     finally:
         context.run("checked_shop.close")
     _has_no_till(context, cents)
@@ -290,7 +205,7 @@ def _sells(context: CheckContext, buying: Service, till: Till, cents: int, count
     )
     context.expect(
         "a client that has paid gets the number of the receipt",
-        expected=[True, str(till._first + 1)],
+        expected=[True, str(till.offset + 1)],
         actual=[response.success, response.message],
         hints=NOT_SOLD,
     )
@@ -340,81 +255,3 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
                 ),
             ],
         )
-
-
-def _sells_to_fifty(
-    context: CheckContext, buying: Service, looking: Service, till: Till, shelf: CheckedShelf, count: int
-) -> None:
-    till.charged.clear()
-    till.acts = [Refuse("no money on this card")] * 5
-    shelf.await_crowd()
-    till.await_crowd()
-    replies = [reply.response for reply in buying.at_once([{}] * CALLERS)]
-    sold = sum(reply.success for reply in replies)
-    context.expect(
-        f"{CALLERS} clients at the same time: the till charges once for each sale",
-        expected=sold,
-        actual=len(till.charged),
-    )
-    context.require(
-        f"{CALLERS} clients at the same time: the till charges once for each sale",
-        holds=till.together >= till.crowd,
-        expected="all clients can pay at the same time",
-        actual=f"at most {till.together} clients at the same time",
-        hints=SERIAL,
-    )
-    context.require(
-        f"{CALLERS} clients at the same time: each purchase has its own request_id",
-        holds=len(set(till.ids)) == len(till.ids),
-        expected="a different id for each purchase",
-        actual="the same id twice",
-        hints=(
-            "Two purchases have the same request_id. In the handler, create a new request_id for each call."
-        ),
-    )
-    context.require(
-        f"{CALLERS} clients at the same time: each purchase has its own request_id",
-        holds=not from_a_counter(till.ids),
-        expected="ids that no other program creates",
-        actual=", ".join(till.ids[:3]),
-        hints=(
-            "The ids come from a counter, so another program, or this program after a restart, can "
-            "create the same ids. Create each id with uuid.uuid4()."
-        ),
-    )
-    refusals = [reply.message for reply in replies if not reply.success and reply.message != "sold out"]
-    _sells_no_more_than_there_is(context, sold, count, refusals, 5 - len(till.acts))
-    context.expect(
-        f"{CALLERS} clients at the same time: the number of things on the shelf is right",
-        expected=str(count - sold),
-        actual=looking().message,
-        hints=TORN,
-    )
-    context.expect(
-        f"{CALLERS} clients at the same time: the number of things on the shelf is right",
-        expected=count - sold,
-        actual=shelf.things,
-        hints=ANOTHER_NUMBER,
-    )
-
-
-def _sells_no_more_than_there_is(
-    context: CheckContext, sold: int, count: int, refusals: list[str], unpaid: int
-) -> None:
-    context.require(
-        f"{CALLERS} clients at the same time: the shop sells only the things that it has",
-        holds=sold <= count,
-        expected=f"at most {count} sales",
-        actual=sold,
-        hints=TORN,
-    )
-    context.require(
-        f"{CALLERS} clients at the same time: the shop sells only the things that it has",
-        holds=len(refusals) <= unpaid,
-        expected='"sold out" if the shelf is empty',
-        actual=max(refusals, key=refusals.count, default=""),
-        hints=(
-            "The shelf is empty, but the handler did not report this. Return success=False and the "
-            'message "sold out".'
-        ),
-    )

@@ -6,7 +6,7 @@ import ast
 import sys
 import textwrap
 
-from course_pkg.chapters.ch11_look_inside.checks.clients import GEOMETRY
+from course_pkg.chapters.ch11_look_inside.checks.client_calls import GEOMETRY
 from course_pkg.chapters.ch11_look_inside.checks.tcpros_server import (
     LINGER,
     TIMEOUT,

@@ -2,53 +2,26 @@
 
 from __future__ import annotations
 
-import threading
-from collections import Counter
-
 from course_pkg.chapters.ch12_survive_trouble.checks.payments import CHARGE
-from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.chapters.ch12_survive_trouble.checks.simultaneous_requests import (
+    charges_each_once,
+    gives_different_receipts,
+)
+from course_pkg.chapters.ch12_survive_trouble.checks.till_in_kernel import (
+    KERNEL_CODE,
+    CheckedPurse,
+    opened_till,
+)
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
-from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
 from course_pkg.checking.peers.service_calls import Service
-from course_pkg.checking.placed import remote
-from course_pkg.checking.plain_values import Value
-from course_pkg.checking.result import Result
 
-AT_ONCE = 50
 ONE = 6.0  # ONE is the time limit in s for a single call.
 MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy machine.
-MEETING = 0.05  # A call of take() waits up to this time in s for another call with the same amount.
-FIRST_MEETING = 0.5  # The first of many calls waits up to this time in s, so that all other calls can start.
-BUYERS = 10  # This many clients send their request five times each.
-KERNEL_CODE = (
-    SMALL_STACKS
-    + """
-import rospy
-from course_pkg.srv import Charge
-
-
-class CheckedDesk:
-    def open(self, kind, purse, name):
-        small_stacks.begin()
-        self.till = kind(purse)
-        self.service = rospy.Service(name, Charge, self.till.handle_charge)
-
-    def close(self):
-        small_stacks.end()
-        self.service.shutdown("checked")
-
-
-checked_desk = CheckedDesk()
-"""
-)
 AGAIN = (
     "The till charged the same request twice. Store the receipt under its request_id, and look for "
     "a stored receipt before you take money."
-)
-RACE = (
-    "Five calls with the same request came at the same time, and the till charged this request more than "
-    "once. Hold one lock while you check for a receipt, take the money and store the receipt."
 )
 TOO_SOON = (
     "A request failed, and the client sent it again, but the till did not charge it. Store the "
@@ -59,7 +32,6 @@ ONLY_TAKE = (
     "Your code uses a method that a purse does not have. Use only take(cents), and count the receipts "
     "in your own class."
 )
-SAME_NUMBER = "Two requests got the same receipt number. Hold the lock while you count the receipts."
 ANOTHER_TILL = (
     "A second Till object used the receipts of the first Till object, so the till treated a new "
     "request as a repetition. Create the dict in __init__, and store it in self."
@@ -95,7 +67,7 @@ def charge_once(context: CheckContext) -> None:
     """
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
-    purse, opened = _opened(context, name)
+    purse, opened = opened_till(context, name)
     context.require("a Till can be created with a purse", holds=not opened.error, actual=opened.error)
     hints = [
         (matches("Purse' object has no attribute"), ONLY_TAKE),
@@ -111,56 +83,12 @@ def charge_once(context: CheckContext) -> None:
         _fails_once(context, purse, charge)
         _refuses_without_an_id(context, charge)
         context.fulfilled(FAILED)
-        _at_once(context, purse, crowd)
-        _gives_different_receipts(context, purse, crowd)
+        charges_each_once(context, purse, crowd)
+        gives_different_receipts(context, purse, crowd)
         _remembers(context, charge, *known)
     finally:
         context.run("checked_desk.close")
     _is_new_to_another_till(context, hints, known[0])
-
-
-class CheckedPurse:
-    """A purse for the student's till. The student's code in the kernel uses the purse through a proxy object.
-
-    Each call of take() waits for a short time, and ends early if another call has the same amount. Therefore,
-    if the student's code uses no lock, a request and its repetition always run at the same time.
-    """
-
-    def __init__(self) -> None:
-        self.took: list[Value] = []
-        self.stuck = False  # `stuck` is True if the next call of take() fails.
-        self.meeting = MEETING
-        self._long_waits = 0
-        self._asked: Counter[str] = Counter()
-        self._turn = threading.Condition()
-
-    @remote
-    def take(self, cents: Value) -> None:
-        """Take this amount of money from the purse."""
-        with self._turn:
-            amount = str(cents)
-            self._asked[amount] += 1
-            mine = self._asked[amount]
-            self._turn.notify_all()
-            limit = FIRST_MEETING if self._long_waits > 0 else self.meeting
-            self._long_waits -= 1
-            self._turn.wait_for(lambda: self._asked[amount] > mine, limit)
-            if self.stuck:
-                self.stuck = False
-                raise RuntimeError("the money drawer is blocked")
-            self.took.append(cents)
-
-    def await_crowd(self) -> None:
-        """Let the next call of take() wait longer, so that the other calls can start on a busy machine."""
-        self._long_waits = 1
-
-
-def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
-    """Offer the service `name` with a new Till; return the Till's purse, and the result of Till(purse)."""
-    purse = CheckedPurse()
-    context.place("checked_purse", purse)
-    its = Its("Till"), Its("checked_purse")
-    return purse, context.run("checked_desk.open", *its, name, worded="Till(purse)")
 
 
 ANOTHER_RECEIPT: Hints = [
@@ -303,49 +231,6 @@ def _refuses_without_an_id(context: CheckContext, charge: Service) -> None:
     )
 
 
-def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    before = len(purse.took)
-    buyers = [
-        {"request_id": context.random.word(12), "cents": context.random.integer(3000, 9000)}
-        for _ in range(BUYERS)
-    ]
-    requests = context.random.shuffled(buyers * (AT_ONCE // BUYERS))
-    purse.await_crowd()
-    replies = charge.at_once(requests)
-    context.expect(
-        f"{AT_ONCE} calls at the same time, each request five times: the till charges each request once",
-        expected=sorted(buyer["cents"] for buyer in buyers),
-        actual=sorted(purse.took[before:]),
-        hints=RACE,
-    )
-    receipts = {
-        (request["request_id"], reply.response.receipt)
-        for request, reply in zip(requests, replies, strict=True)
-    }
-    context.expect(
-        f"{AT_ONCE} calls at the same time: one receipt for each request",
-        expected=BUYERS,
-        actual=len({receipt for _, receipt in receipts}) if len(receipts) == BUYERS else len(receipts),
-    )
-
-
-def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send many requests; if the receipt numbers are random, two of them are then probably equal."""
-    purse.meeting = 0.0
-    requests = [
-        {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}
-        for _ in range(AT_ONCE)
-    ]
-    receipts = [reply.response.receipt for reply in charge.at_once(requests)]
-    context.require(
-        "another request gets a different receipt",
-        holds=len(set(receipts)) == len(receipts),
-        expected=f"{AT_ONCE} receipts for {AT_ONCE} requests",
-        actual=f"{len(set(receipts))} different receipts",
-        hints=SAME_NUMBER,
-    )
-
-
 def _remembers(context: CheckContext, charge: Service, request_id: str, receipt: int) -> None:
     """Repeat the first request after all other requests."""
     context.expect(
@@ -358,7 +243,7 @@ def _remembers(context: CheckContext, charge: Service, request_id: str, receipt:
 
 def _is_new_to_another_till(context: CheckContext, hints: Hints, request_id: str) -> None:
     name, cents = f"/{context.random.word()}", context.random.integer(100, 900)
-    purse, _ = _opened(context, name)
+    purse, _ = opened_till(context, name)
     try:
         context.service(name, CHARGE, hints=hints, timeout=ONE)(request_id=request_id, cents=cents)
         _purse_has(context, purse, "the till charges a new request", [cents], ANOTHER_TILL)

@@ -10,8 +10,8 @@ import time
 from concurrent.futures import Future, ThreadPoolExecutor
 
 from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, start_of
+from course_pkg.chapters.ch15_robot_cashier.checks.peers.seen_customers import SeenCustomers
 from course_pkg.chapters.ch15_robot_cashier.checks.refusals import BUG, refused
-from course_pkg.chapters.ch15_robot_cashier.checks.seen_customers import SeenCustomers
 from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, student_node
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints

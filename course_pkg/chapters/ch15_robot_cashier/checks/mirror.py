@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import (
+from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, start_of
+from course_pkg.chapters.ch15_robot_cashier.checks.peers.joint_states import (
     EFFORT,
     EMPTY,
     FEW_EFFORTS,
@@ -13,7 +14,6 @@ from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import (
     joint_states,
     many_joint_states,
 )
-from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, start_of
 from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, student_node
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints

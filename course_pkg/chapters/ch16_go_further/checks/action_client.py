@@ -2,98 +2,31 @@
 
 from __future__ import annotations
 
-import threading
-import time
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
-
-import actionlib
-import rospy
-from actionlib_msgs.msg import GoalID
-
-from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.chapters.ch16_go_further.checks.scripted_robot import (
+    ATTEMPTS,
+    ENOUGH,
+    LONG,
+    UNSENT,
+    WAIT,
+    Robot,
+    fetch,
+    serving,
+)
+from course_pkg.chapters.ch16_go_further.checks.server_wait import never_starts, starts_late
+from course_pkg.checking import ANYTHING, CheckContext, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
-from course_pkg.checking.result import Result
-from course_pkg.msg import FetchAction, FetchGoal, FetchResult
-from course_pkg.ros.node.action_server import ActionServer
+from course_pkg.msg import FetchGoal
 
-WAIT = 2.0  # The client waits up to this time in s for an action server.
-LONG = 6.0  # A robot needs this time in s for a goal, and the client cancels this goal.
 PROMPT = 4.0  # With a robot that needs 0.3 s, the whole call may take up to this time in s on a busy machine.
-ENOUGH = 5.0  # If the robot has to finish in time, the client gets this time limit in s.
 BRIEF = 0.2  # If the robot ignores the cancellation, the client gets this time limit in s.
-LATE = 0.6  # LATE is the time in s between the call and the start of a late robot.
 # The client must cancel the goal after this time in s. The time is not a whole number, so a client that
 # rounds the time fails.
 SECONDS = 0.8
 SLACK = 3.0  # SLACK is the additional time in s that a call may take on a busy machine.
-LONGEST = 3.4  # If no robot runs, the fastest of `ATTEMPTS` calls may take up to this time in s.
 # If the robot ignores the cancellation, the fastest of `ATTEMPTS` calls may take up to this time in s.
 STUBBORN = 3.9
-ATTEMPTS = 3
-BOUND = (
-    "A wait without a time limit did not end. Pass a rospy.Duration above 0 to both wait_for_server "
-    "and wait_for_result."
-)
-DURATION = "actionlib does not accept a plain number of seconds. Pass rospy.Duration(seconds)."
-UNSENT = (
-    "The server got no goal. Call wait_for_server(rospy.Duration(2)) and then send_goal: a goal that the "
-    "client sends before the connection exists is lost."
-)
 HOW_LONG = "The time limit is wrong. Use the argument `seconds`: wait_for_result(rospy.Duration(seconds))."
-NOBODY = (
-    "No server started in time, so wait_for_server returned False. In this case, return None and do "
-    "not send a goal."
-)
-ABORTED = (
-    "The robot aborted the goal, but the function did not return the number in the result. Return this "
-    "number for every final state."
-)
-EARLY = (
-    "There is no result before the goal has ended. After cancel_goal(), wait for the result again, "
-    "because the goal ends only after the robot has fetched its current thing."
-)
-
-
-class Robot:
-    """An action server that records its goals and cancellations."""
-
-    def __init__(self, fetched: int, seconds: float, *, stubborn: bool = False, aborts: bool = False) -> None:
-        self.goals: list[FetchGoal] = []
-        self.cancelled = threading.Event()
-        self.cancelled_all = False
-        self.took = 0.0  # `took` is the time in s from the goal to its cancellation.
-        # A stubborn robot ignores a cancellation. The check sets this event to end execute().
-        self.over = threading.Event()
-        self._fetched, self._seconds = fetched, seconds
-        self._stubborn, self._aborts = stubborn, aborts
-
-    def receive_cancel(self, cancelled: GoalID) -> None:
-        """Record a message on the topic `cancel`; an empty id means all goals."""
-        self.cancelled_all = self.cancelled_all or not cancelled.id
-
-    def execute(self, goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
-        """Finish after the goal's time, or after a cancellation; the result is the same in both cases."""
-        self.goals.append(goal)
-        began = time.monotonic()
-        if self._stubborn:
-            self.over.wait(LONG)
-            return
-        wait, left = threading.Event(), self._seconds
-        while left > 0 and not server.is_preempt_requested():
-            wait.wait(0.05)
-            left -= 0.05
-        if server.is_preempt_requested():
-            self.took = time.monotonic() - began
-            self.cancelled.set()
-            wait.wait(0.3)  # The robot first finishes the thing that it is fetching.
-            server.set_preempted(FetchResult(fetched=self._fetched))
-        elif self._aborts:
-            server.set_aborted(FetchResult(fetched=self._fetched))
-        else:
-            server.set_succeeded(FetchResult(fetched=self._fetched))
-
 
 FETCHED = "Send a goal, and return the number of fetched things."
 CANCELLED = "Cancel the goal when the time limit is over, and return the number of fetched things."
@@ -117,8 +50,8 @@ def bounded_goal(context: CheckContext) -> None:
     _too_late(context)
     _goes_on(context)
     context.fulfilled(CANCELLED)
-    _comes(context)
-    _nobody(context)
+    starts_late(context)
+    never_starts(context)
 
 
 def _wrong_result(robot: Robot, things: int) -> Hints:
@@ -139,24 +72,12 @@ def _wrong_result(robot: Robot, things: int) -> Hints:
     ]
 
 
-@contextmanager
-def _serving(name: str, robot: Robot) -> Iterator[None]:
-    """Serve the action `name` until the end of the `with` block; the object `robot` executes the goals."""
-    server = ActionServer(name, FetchAction, robot.execute)
-    cancellations = rospy.Subscriber(f"{name}/cancel", GoalID, robot.receive_cancel)
-    try:
-        yield
-    finally:
-        cancellations.unregister()
-        server.stop()
-
-
 def _in_time(context: CheckContext) -> None:
     name = f"/{context.random.word()}"
     things, fetched = context.random.integer(3, 9), context.random.integer(20, 90)
     robot = Robot(fetched, 0.3)
-    with _serving(name, robot):
-        result = _fetch(context, robot, name, things, ENOUGH)
+    with serving(name, robot):
+        result = fetch(context, robot, name, things, ENOUGH)
         context.expect(
             "if the robot finishes in time, fetch_within() returns the result",
             expected=fetched,
@@ -204,8 +125,8 @@ def _sends_the_goal(context: CheckContext, goal: FetchGoal, things: int) -> None
 def _too_late(context: CheckContext) -> None:
     name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
     robot = Robot(fetched, LONG)
-    with _serving(name, robot):
-        result = _fetch(context, robot, name, 5, SECONDS)
+    with serving(name, robot):
+        result = fetch(context, robot, name, 5, SECONDS)
         if not result.error:
             _is_cancelled(context, robot)
             context.require(
@@ -269,7 +190,7 @@ def _goes_on(context: CheckContext) -> None:
     for _ in range(ATTEMPTS):
         name = f"/{context.random.word()}"
         robot = Robot(0, LONG, stubborn=True)
-        with _serving(name, robot):
+        with serving(name, robot):
             result = context.run("fetch_within", name, 3, BRIEF, within=BRIEF + WAIT + SLACK)
             robot.over.set()
         endless = result.error.startswith("TimesUp")
@@ -286,109 +207,4 @@ def _goes_on(context: CheckContext) -> None:
             "The robot ignored the cancellation, so the function waited too long. Wait at most 2 s "
             "after cancel_goal()."
         ),
-    )
-
-
-def _comes(context: CheckContext) -> None:
-    """Start a robot while the client waits for the action server; this robot aborts its goal."""
-    name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
-    robot = Robot(fetched, 0.1, aborts=True)
-    with ExitStack() as ending:
-
-        def serve() -> None:
-            ending.callback(ActionServer(name, FetchAction, robot.execute).stop)
-
-        coming = threading.Timer(LATE, serve)
-        coming.start()
-        try:
-            result = _fetch(context, robot, name, 3, ENOUGH)
-        finally:
-            coming.join()
-        if robot.goals:
-            context.expect(
-                "if the robot finishes in time, fetch_within() returns the result",
-                expected=fetched,
-                actual=result.returned(),
-                hints=ABORTED,
-            )
-        if result.returned() != fetched:
-            too_short = (
-                f"The server started {LATE:g} s after the call, but the goal did not arrive. Use "
-                "wait_for_server to wait up to 2 s for the server."
-            )
-            context.fail(
-                "a server that starts within 2 s gets the goal",
-                expected=str(fetched),
-                actual=str(result.returned()),
-                # If the call took more time than its time limit `ENOUGH`, the client did not wait for the
-                # server. The client sent the goal too early, so the goal was lost.
-                hint=UNSENT if result.took > ENOUGH else too_short,
-            )
-
-
-def _nobody(context: CheckContext) -> None:
-    result = _call_without_robot(context)
-    context.expect(
-        "fetch_within() returns None if no robot offers the action",
-        expected=None,
-        actual=result.returned(),
-        hints=NOBODY,
-    )
-    for _ in range(ATTEMPTS - 1):
-        if result.took > LONGEST:
-            result = _call_without_robot(context)
-    if result.took > LONGEST:
-        context.fail(
-            "fetch_within() returns None if no robot offers the action",
-            expected=f"None after {WAIT:g} s",
-            actual=f"None after {result.took:.1f} s",
-            hint=(
-                f"The function waited too long for a server. Pass rospy.Duration({WAIT:g}) to "
-                "wait_for_server."
-            ),
-        )
-
-
-WAITED_FOR_EVER: Hints = [
-    (
-        matches("TimesUp"),
-        "No server exists, but the function waits without a time limit. Write "
-        "wait_for_server(rospy.Duration(2)).",
-    ),
-    (
-        matches("NoneType"),
-        NOBODY,
-    ),
-]
-
-
-def _call_without_robot(context: CheckContext) -> Result:
-    return context.run(
-        "fetch_within", f"/{context.random.word()}", 3, 1.0, within=WAIT + 4.0, hints=WAITED_FOR_EVER
-    )
-
-
-def _fetch(context: CheckContext, robot: Robot, name: str, things: int, seconds: float) -> Result:
-    def is_early(_: object) -> bool:
-        return robot.cancelled.is_set()
-
-    return context.run(
-        "fetch_within",
-        name,
-        things,
-        seconds,
-        within=seconds + 5.0,
-        hints=[
-            (matches("TimesUp"), BOUND),
-            (matches("unsupported operand|'float' object|'int' object|Duration"), DURATION),
-            ((lambda error: not robot.goals and "NoneType" in error), UNSENT),
-            (is_early, EARLY),
-            (
-                matches("NoneType"),
-                (
-                    "get_result() returned None, because the goal had not ended. When the time is over, "
-                    "call cancel_goal() and wait for the result again."
-                ),
-            ),
-        ],
     )

@@ -14,13 +14,13 @@ import rospy
 from actionlib import CommState
 from actionlib_msgs.msg import GoalStatus
 
-from course_pkg.chapters.ch16_go_further.checks.action_server import STATES
 from course_pkg.chapters.ch16_go_further.checks.robot_program import (
     FILE,
     Robot,
     offers_what_fits,
     started,
 )
+from course_pkg.chapters.ch16_go_further.checks.sent_goals import STATES
 from course_pkg.checking import ANYTHING, CheckContext, part
 from course_pkg.checking.peers.subscription import Subscription
 from course_pkg.msg import FetchAction, FetchGoal
