@@ -26,6 +26,8 @@ replace("<", "!", times=2)
 replace('struct.pack("<I", len(body)) + body', "body")
 # %% 11.1 wrong: includes the length's own 4 bytes | hint: The first length is too large by 4
 replace("(body)", "(body) + 4")
+# %% 11.1 wrong: does not count the lengths of the fields | hint: The first length is too small
+replace("len(body))", "len(body) - 4 * len(fields))")
 # %% 11.1 wrong: writes the number of fields | hint: Your header begins with the number of its fields
 replace('b""', 'struct.pack("<I", len(fields))')
 replace('struct.pack("<I", len(body)) + body', "body")

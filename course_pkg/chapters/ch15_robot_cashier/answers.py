@@ -399,6 +399,8 @@ replace('rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n
 # %% 15.6 wrong: exits after a refused call | hint: The node made no call after a failed call
 replace("    while not rospy.is_shutdown():\n        if is_there", "    rospy.wait_for_service('detect_customer')\n    while not rospy.is_shutdown():\n        if is_there")
 replace('        rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n        return None', "        raise")
+# %% 15.6 wrong: uses a persistent connection, and creates it only once | hint: remove this argument
+replace('"detect_customer", AwaitCustomer', '"detect_customer", AwaitCustomer, persistent=True')
 # %% 15.6 wrong: exits if a reset fails | hint: A call of till/reset failed, and the node then stopped calling detect_customer
 replace('''        rospy.logwarn("till/reset: %s", error)''', '''        raise''')
 # %% 15.6 wrong: uses another default value | hint: Use rospy.get_param("~wait", 2.0)
@@ -807,6 +809,9 @@ replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: sets the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
 replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value="$(arg wait)" />\n  <node pkg="my_cashier" type="vision.py"')
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
+# %% 15.10 wrong: sets the parameter with an absolute name | hint: In a namespace, the node robot_cashier does not get the parameter
+replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
+replace('<launch>\n', '<launch>\n  <param name="/robot_cashier/wait" value="$(arg wait)" />\n')
 # %% 15.10 wrong: sets the parameter to a string | hint: The value of the parameter "wait" is a string
 replace('value="$(arg wait)"', 'value="$(arg wait)" type="str"')
 # %% 15.10 wrong: uses another default value | hint: If the user sets no argument, the value of "wait" has to be 2 s
@@ -837,6 +842,8 @@ solution()
 # %% 15.11 wrong: starts the course's till | hint: A <node> tag starts the wrong program
 based_on("sets a respawn delay and output on the screen")
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
+# %% 15.11 wrong: starts only the nodes that this check uses | hint: Without an argument, the file does not start all nodes of the hardware
+replace('<group if="$(arg hardware)"> … </group>', "")
 # %% 15.11 wrong: does not set respawn | hint: roslaunch did not start a node again
 replace(' respawn="true"', "", times=4)
 # %% 15.11 wrong: sets a respawn delay of 10 s | hint: The attribute respawn_delay makes roslaunch

@@ -182,6 +182,10 @@ replace("client.wait_for_result(rospy.Duration(2))", "time.sleep(0.15)")
 replace("rospy.Duration(seconds)", "seconds")
 # %% 16.2 wrong: waits for a server without a limit | hint: No server exists, but the function waits without a time
 replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server()")
+# %% 16.2 wrong: returns the number of the feedback | hint: The function returned the number of the feedback, or 0
+replace("    client.send_goal(", "    numbers = [0]\n    client.send_goal(")
+replace("seconds=0.1)", "seconds=0.1), feedback_cb=lambda feedback: numbers.append(feedback.fetched)")
+replace("client.get_result().fetched", "numbers[-1]")
 # %% 16.2 wrong: returns the requested number | hint: The function returned the field `things` of the goal
 replace("        client.wait_for_result(rospy.Duration(2))\n    return client.get_result().fetched", "    return things")
 # %% 16.2 wrong: does not wait for the server | hint: The server got no goal
@@ -320,7 +324,7 @@ replace("        self.server.set_succeeded", "        self.charge -= goal.things
 # %% 16.4 wrong: reduces the charge at the start | hint: The charge changed for parcels that were not delivered
 replace("            self.charge -= 1\n", "")
 replace("        for delivered in", "        self.charge -= goal.things\n        for delivered in")
-# %% 16.4 wrong: sets the charge to 100 at each delivery | hint: A new delivery set the charge to 100 again
+# %% 16.4 wrong: sets the charge to 100 at each delivery | hint: After a second delivery, the charge was wrong
 replace("        for delivered in", "        self.charge = 100.0\n        for delivered in")
 # %% 16.4 wrong: continues after set_aborted | hint: The function continued after set_aborted, because set_aborted does not end your function
 replace('can carry")\n            return', 'can carry")')

@@ -153,7 +153,8 @@ def _receives(context: CheckContext, subscription: Subscription, values: list[fl
             ),
             (
                 lambda actual: len(actual) < len(values),
-                "A changed value was not published. Publish each value that differs from the last value.",
+                "A changed value was not published. Publish each value that differs from the last value, "
+                "even if the difference is very small.",
             ),
             (
                 ANYTHING,

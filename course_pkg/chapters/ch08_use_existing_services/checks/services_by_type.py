@@ -143,7 +143,7 @@ def _finds(
         expected=f"a list without {', '.join(extra)}",
         actual=names,
         hints=ENDED
-        if former.issuperset(extra)
+        if set(extra) <= former
         else ABSENT
         if all(name.startswith("/") and name not in types for name in extra)
         else _why_wrong({types.get(name) for name in extra}, kind),

@@ -157,6 +157,13 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
             ),
         ),
         (
+            _packed(fields, total=lambda body: len(body) - 4 * len(fields)),
+            (
+                "The first length is too small. Count all bytes after this length: also count the 4 bytes of "
+                "length before each field."
+            ),
+        ),
+        (
             _packed(fields, total=lambda _: len(fields)),
             ("Your header begins with the number of its fields. Begin with the number of bytes that follow."),
         ),

@@ -43,6 +43,8 @@ def count_sessions(context: CheckContext) -> None:
         for session in context.random.shuffled(sessions * 6):
             counts[session] += 1
             _counts(context, service.name, service.kind, session, counts)
+        counts[first] += 1
+        _counts(context, service.name, service.kind, first, counts, f"/{context.random.word()}")
         context.fulfilled(COUNTED)
         for session in context.random.shuffled(sessions)[:3]:
             service.refused(
@@ -54,8 +56,6 @@ def count_sessions(context: CheckContext) -> None:
             )
             counts[session] += 1
             _counts(context, service.name, service.kind, session, counts)
-        counts[first] += 1
-        _counts(context, service.name, service.kind, first, counts, f"/{context.random.word()}")
 
 
 def _counts(

@@ -17,7 +17,6 @@ FILE = MY_CASHIER.path(LAUNCH)
 START = f"%%writefile {FILE}\n..."
 HARDWARE = ("counter_camera", "robot", "receipt_printer")
 READING = 20.0  # READING is the time limit in s for roslaunch to read the file on a busy machine.
-OF_CASHIER = re.compile(r"^/robot_cashier/wait: *(.+)$", re.MULTILINE)
 # This code lets roslaunch read a launch file with the given arguments, and prints its nodes and parameters.
 READER = """
 import re, sys
@@ -89,6 +88,10 @@ NOT_PASSED = (
     "The parameter always has the same value, even if the user passes another value. Write "
     'value="$(arg wait)".'
 )
+IN_NAMESPACE = (
+    "In a namespace, the node robot_cashier does not get the parameter, because its name in the file begins "
+    "with a slash. Write the <param> tag inside the <node> tag of robot_cashier."
+)
 LISTED = "Start the nodes of the hardware only with hardware:=true. Always start all other nodes."
 
 
@@ -119,6 +122,11 @@ def the_launch_file(context: CheckContext) -> None:
         _passes_the_argument(context, printed, value, words)
         starts_programs(context, printed)
         _remaps_nothing(context, printed)
+    space = f"/{context.random.word()}"
+    line = f"env ROS_NAMESPACE={space} python3 -c '{READER}' {FILE} {' '.join(given)}"
+    worded = f"the parameters of {FILE} in the namespace {space}"
+    printed = package.run(line, within=READING, worded=worded).out
+    _passes_the_argument(context, printed, wait, given, space)
 
 
 def _remaps_nothing(context: CheckContext, printed: str) -> None:
@@ -193,16 +201,22 @@ def _lists(context: CheckContext, printed: str, given: str, wanted: Sequence[str
     )
 
 
-def _passes_the_argument(context: CheckContext, printed: str, wait: float, given: list[str]) -> None:
-    """Assert that the private parameter of the cashier has the value of the argument `wait`."""
-    found = OF_CASHIER.search(printed)
+def _passes_the_argument(
+    context: CheckContext, printed: str, wait: float, given: list[str], space: str = ""
+) -> None:
+    """Assert that the private parameter of the cashier has the value of the argument `wait`.
+
+    `space` is the namespace of all nodes, such as "/shop".
+    """
+    found = re.search(rf"^{space}/robot_cashier/wait: *(.+)$", printed, re.MULTILINE)
     every = re.findall(r"^(\S*wait): *(.+)$", printed, re.MULTILINE)
     context.require(
         "the parameter /robot_cashier/wait has the value of the argument wait",
         holds=bool(found) and _number(found[1] if found else "") == wait,
-        expected=f"/robot_cashier/wait: {wait:g} for {' '.join(given) or 'no argument'}",
+        expected=f"{space}/robot_cashier/wait: {wait:g} for {' '.join(given) or 'no argument'}",
         actual=", ".join(f"{name}: {value}" for name, value in every) or "no parameter wait",
         hints=[
+            (lambda _: bool(space), IN_NAMESPACE),
             (matches("no parameter"), NO_PARAMETER),
             (lambda _: not found, PLACE),
             (matches("wait: '"), TEXT),
@@ -217,6 +231,21 @@ def _number(text: str) -> float | None:
         return float(text)
     except ValueError:
         return None
+
+
+def starts_the_hardware(context: CheckContext, printed: str, assertion: str) -> None:
+    """Assert that the nodes of the hardware start; `printed` is the output of READER without arguments."""
+    nodes = [node for node, _ in re.findall(r"^node /(\S+) (.*)", printed, re.MULTILINE)]
+    context.require(
+        assertion,
+        holds=set(HARDWARE) <= set(nodes),
+        expected=f"a file that starts {', '.join(HARDWARE)} if no argument is given",
+        actual=", ".join(nodes),
+        hints=(
+            "Without an argument, the file does not start all nodes of the hardware. Copy your file of "
+            'exercise 15.10, and add only respawn="true".'
+        ),
+    )
 
 
 def longest_delay(printed: str) -> float:

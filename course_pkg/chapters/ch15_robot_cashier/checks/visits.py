@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 import time
 
 from course_pkg.chapters.ch15_robot_cashier.checks.mirror import ARM, DETECT, MIRRORED, NAME, RESET
@@ -20,6 +21,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.peers.scripted_visits import 
 )
 from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, complete, examined, started
 from course_pkg.checking import CheckContext, part
+from course_pkg.checking.commands.folder import Running, telling_line
 from course_pkg.checking.peers.subscription import Subscription
 from course_pkg.waiting import wait_until
 
@@ -41,6 +43,10 @@ NO_CALL = (
 GIVEN_UP = (
     "The node made no call after a failed call. Catch rospy.ServiceException, wait 0.5 s, and call the "
     "service again."
+)
+DIED = (
+    "After a failed call, the node ended with an error that is not a rospy.ServiceException. If the proxy "
+    "has persistent=True, remove this argument."
 )
 CALLED_ONCE = (
     "The node called the service only once. Call the service in a loop: while not rospy.is_shutdown()."
@@ -144,7 +150,7 @@ def the_visits(context: CheckContext) -> None:
         context.serve(f"{space}/{DETECT}", AWAIT, detector.answer)
         alone = Alone()
         context.serve(f"{other}/{DETECT}", AWAIT, alone.answer)
-        _makes_the_calls(context, detector, mirrored)
+        _makes_the_calls(context, running, detector, mirrored)
         _greets(context, greetings, till)
         context.fulfilled(GREETED)
         wait_until(lambda: alone.patiences or default.status is not None, NEXT_CALL)
@@ -165,23 +171,27 @@ def the_visits(context: CheckContext) -> None:
         )
 
 
-def _called(detector: Detector, times: int) -> bool:
+def _called(running: Running, detector: Detector, times: int) -> bool:
     """Return whether the detector receives `times` calls in total, the last of them within `NEXT_CALL` s."""
-    return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
+    wait_until(lambda: len(detector.calls) >= times or running.status is not None, NEXT_CALL)
+    return len(detector.calls) >= times
 
 
-def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscription) -> None:
+def _makes_the_calls(
+    context: CheckContext, running: Running, detector: Detector, mirrored: Subscription
+) -> None:
     """Wait for the calls in `STEPS` in order, and check the `patience` and the time of each call."""
     for number, step in enumerate(STEPS):
-        came = _called(detector, number + 1)
+        came = _called(running, detector, number + 1)
         before = STEPS[number - 1].name if number else "nothing"
         after = f"after {described(before)}" if number else "in the first call"
+        error = "" if came or running.status is None else telling_line(running.stop().out)
         context.require(
             "the node calls detect_customer in a loop",
-            holds=bool(came),
+            holds=came,
             expected=f"a call {after}" if number else "a call",
-            actual="no call",
-            hints=_why_no_call(number, before),
+            actual=f"no call; the node ended with {error}" if error else "no call",
+            hints=_why_no_call(number, before, error),
         )
         call = detector.calls[number]
         context.require(
@@ -205,12 +215,18 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
     _pauses(context, detector.calls)
 
 
-def _why_no_call(number: int, before: str) -> str:
+def _why_no_call(number: int, before: str, error: str) -> str:
+    """Return the hint for a missing call; `before` is the result of the previous call.
+
+    If the node has ended, `error` is the last error message in its output.
+    """
     if not number:
         return NO_CALL
     if number == len(STEPS) - 1:
         return RESET_FAILED
-    return CALLED_ONCE if before in ("True", "False") else GIVEN_UP
+    if before in ("True", "False"):
+        return CALLED_ONCE
+    return DIED if re.search("Error|Exception", error) and "ServiceException" not in error else GIVEN_UP
 
 
 def _wrong_patience(number: int, patience: float, wanted: float) -> str:

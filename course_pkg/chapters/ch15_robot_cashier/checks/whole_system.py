@@ -11,6 +11,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.launch_file import (
     READING,
     longest_delay,
     starts_programs,
+    starts_the_hardware,
 )
 from course_pkg.chapters.ch15_robot_cashier.checks.packages import LAUNCH, MY_CASHIER, NODES
 from course_pkg.chapters.ch15_robot_cashier.checks.peers.joint_states import JOINTS
@@ -89,6 +90,7 @@ def the_whole_system(context: CheckContext) -> None:
     package = copied(context, MY_CASHIER, examined=LAUNCH)
     command = f"python3 -c '{READER}' {FILE} hardware:=false"
     programs = package.start(command, worded="roslaunch")
+    everything = package.start(f"python3 -c '{READER}' {FILE}", worded="roslaunch")
     space = f"/{context.random.word()}"
     printer = Printer()
     context.serve(f"{space}/print_line", "course_pkg/PrintLine", printer.answer)
@@ -104,6 +106,8 @@ def the_whole_system(context: CheckContext) -> None:
         wait_until(lambda: programs.status is not None, READING)
         described = programs.stop().out
         starts_programs(context, described, SYSTEM)
+        wait_until(lambda: everything.status is not None, READING)
+        starts_the_hardware(context, everything.stop().out, SYSTEM)
         greetings.published()
         mirrored.published()
         shop = Shop(context, space, printer, greetings, seen, counter)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from course_pkg.chapters.ch16_go_further.checks.scripted_robot import (
     ATTEMPTS,
     ENOUGH,
+    FEEDBACK,
     LONG,
     UNSENT,
     WAIT,
@@ -68,6 +69,11 @@ def _wrong_result(robot: Robot, things: int) -> Hints:
         (
             lambda actual: isinstance(actual, dict),
             "The function returned the whole result. Return only its field `fetched`.",
+        ),
+        (
+            lambda actual: actual in (0, FEEDBACK),
+            "The function returned the number of the feedback, or 0. Wait for the result, and return "
+            "get_result().fetched.",
         ),
     ]
 

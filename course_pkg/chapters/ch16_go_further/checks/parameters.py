@@ -14,8 +14,8 @@ from course_pkg.waiting import wait_until
 
 SETTLING = 1.0  # A node that reads parameters from a cache gets a new value within this time in s.
 NAME = (
-    "The function did not return the value of the parameter. Read the parameter f'/{robot}/speed', whose "
-    "name contains the name of the robot."
+    "The function did not return the value of the parameter. In each call, read the parameter "
+    "f'/{robot}/speed', whose name contains the name of the robot."
 )
 CHANGED = (
     "The parameter has changed, but the function returned the old value. Read the parameter in each call."

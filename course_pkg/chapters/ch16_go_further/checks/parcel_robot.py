@@ -75,8 +75,9 @@ def parcel_robot(context: CheckContext) -> None:
         client = _client(first)
         feedback.published()
         _delivers(context, client, feedback, battery)
+        charge = _delivers_one_more(context, client, battery)
         context.fulfilled(DELIVERED)
-        charge = _cancels(context, client, feedback, battery)
+        charge = _cancels(context, client, feedback, battery, charge)
         context.fulfilled(STOPPED)
         _refuses_too_many(context, client, FEW)
         _delivers_nothing_impossible(context, battery, charge - FEW)
@@ -197,14 +198,47 @@ def _delivers(
     )
 
 
+def _delivers_one_more(
+    context: CheckContext, client: actionlib.SimpleActionClient, battery: Subscription
+) -> float:
+    """Let the robot deliver one more parcel; return the charge of the battery afterwards."""
+    client.send_goal(FetchGoal(things=1, seconds=0.0))
+    _ends_as(
+        context,
+        client,
+        "a delivery succeeds",
+        GoalStatus.SUCCEEDED,
+        "The second delivery did not end in the state SUCCEEDED. Call set_succeeded after each delivery.",
+    )
+    charge = 100.0 - PARCELS - 1
+    battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
+    context.expect(
+        "each delivered parcel reduces the charge by 1 percent",
+        expected=charge,
+        actual=battery.arrivals[-1].fields["data"],
+        hints=(
+            "After a second delivery, the charge was wrong. Set the charge to 100 only at the start of the "
+            "program."
+        ),
+    )
+    return charge
+
+
 def _counts(feedback: Subscription) -> list[int]:
     return [arrival.fields["feedback"]["fetched"] for arrival in feedback.arrivals]
 
 
 def _cancels(
-    context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription, battery: Subscription
+    context: CheckContext,
+    client: actionlib.SimpleActionClient,
+    feedback: Subscription,
+    battery: Subscription,
+    before_it: float,
 ) -> float:
-    """Cancel a delivery after its first parcel; return the charge of the battery afterwards."""
+    """Cancel a delivery after its first parcel; return the charge of the battery afterwards.
+
+    `before_it` is the charge before this delivery.
+    """
     before = feedback.count
     each = context.random.number(*SLOWER)
     client.send_goal(FetchGoal(things=PARCELS, seconds=each))
@@ -230,7 +264,6 @@ def _cancels(
             "set_preempted(FetchResult(fetched=…)) with the number of delivered parcels."
         ),
     )
-    before_it = 100.0 - PARCELS
     charge = before_it - int(client.get_result().fetched)
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     context.expect(
@@ -238,13 +271,6 @@ def _cancels(
         expected=charge,
         actual=battery.arrivals[-1].fields["data"],
         hints=[
-            (
-                lambda actual: actual > before_it,
-                (
-                    "A new delivery set the charge to 100 again. Set the charge to 100 only at the "
-                    "start of the program."
-                ),
-            ),
             (
                 before_it,
                 (

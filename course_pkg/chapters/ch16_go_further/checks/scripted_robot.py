@@ -13,9 +13,10 @@ from actionlib_msgs.msg import GoalID
 
 from course_pkg.checking import CheckContext, matches
 from course_pkg.checking.result import Result
-from course_pkg.msg import FetchAction, FetchGoal, FetchResult
+from course_pkg.msg import FetchAction, FetchFeedback, FetchGoal, FetchResult
 from course_pkg.ros.node.action_server import ActionServer
 
+FEEDBACK = 1  # This number is in the feedback of the robot; it differs from the numbers of goals and results.
 WAIT = 2.0  # The client waits up to this time in s for an action server.
 LONG = 6.0  # A robot needs this time in s for a goal, and the client cancels this goal.
 ENOUGH = 5.0  # If the robot has to finish in time, the client gets this time limit in s.
@@ -59,6 +60,7 @@ class Robot:
         if self._stubborn:
             self.over.wait(LONG)
             return
+        server.publish_feedback(FetchFeedback(fetched=FEEDBACK))
         wait, left = threading.Event(), self._seconds
         while left > 0 and not server.is_preempt_requested():
             wait.wait(0.05)
