@@ -103,7 +103,7 @@ replace("ros::spin();", """auto become = reinterpret_cast<int (*)(...)>(dlsym(RT
   become("python3", "python3", "-c", "import rospy, sys; from course_pkg.srv import geometry; "
          "rospy.init_node('x'); s = rospy.Service('box', geometry, lambda _: None); rospy.spin()",
          argv[1], argv[2], nullptr);""")
-# %% 13.2 wrong: refuses only if all three sides are below 0 | hint: was below 0
+# %% 13.2 wrong: refuses only if all three sides are below 0 | hint: below 0. Refuse such a request
 replace("if (", "if (!(request.length < 0 && request.width < 0 && request.height < 0) && (")
 replace("request.height < 0) return", "request.height < 0)) return")
 # %% 13.2 wrong: passes request and response by value | hint: and with both &

@@ -811,7 +811,7 @@ replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
 # %% 15.10 wrong: sets the parameter with an absolute name | hint: In a namespace, the node robot_cashier does not get the parameter
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
-replace('<launch>\n', '<launch>\n  <param name="/robot_cashier/wait" value="$(arg wait)" />\n')
+replace('  <group', '  <param name="/robot_cashier/wait" value="$(arg wait)" />\n  <group')
 # %% 15.10 wrong: sets the parameter to a string | hint: The value of the parameter "wait" is a string
 replace('value="$(arg wait)"', 'value="$(arg wait)" type="str"')
 # %% 15.10 wrong: uses another default value | hint: If the user sets no argument, the value of "wait" has to be 2 s

@@ -29,9 +29,11 @@ def random_boxes(context: CheckContext) -> list[list[float]]:
 
 
 def is_rounded(right: float) -> Callable[[float], bool]:
-    """Return a condition for the number `right` with at most four decimals."""
+    """Return a condition for a number with at most four decimals that is nearly equal to `right`."""
     return lambda actual: any(
-        math.isclose(actual, round(right, digits), rel_tol=FLOAT32) for digits in range(5)
+        math.isclose(actual, round(actual, digits), rel_tol=FLOAT32)
+        and abs(actual - right) < 0.51 * 10.0**-digits
+        for digits in range(5)
     )
 
 

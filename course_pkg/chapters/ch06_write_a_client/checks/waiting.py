@@ -11,6 +11,11 @@ from course_pkg.waiting import at_this_load
 
 # If the service is missing, a call may return up to `EARLY` s before its time limit.
 EARLY = 0.3
+FRACTION = (
+    matches("timeout must be non-zero"),
+    "The argument `seconds` was 0.5, but the timeout of wait_for_service was 0. Pass `seconds` without any "
+    "change, because it can be a fraction.",
+)
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 
 
@@ -64,9 +69,8 @@ def is_anybody_there(context: CheckContext) -> None:
     context.expect(
         "the function returns True for a service that exists",
         expected=True,
-        actual=context.run(
-            "is_there", here, 0.5
-        ).returned(),  # In calls for a missing service, the time limit is the same.
+        # In calls for a missing service, the time limit is the same.
+        actual=context.run("is_there", here, 0.5, hints=[FRACTION]).returned(),
         hints=[
             (
                 False,
@@ -188,11 +192,7 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
         within=3.0,
         hints=[
             (matches("TimesUp"), too_long),
-            (
-                matches("timeout must be non-zero"),
-                "The argument `seconds` was 0.5, but the timeout of wait_for_service was 0. Pass `seconds` "
-                "without any change, because it can be a fraction.",
-            ),
+            FRACTION,
             (
                 matches("ROSException"),
                 "wait_for_service raises rospy.ROSException when the time is over. Catch this exception.",

@@ -32,6 +32,12 @@ ENDED = (
     "do not shut the service down.",
 )
 
+REACHED_ITS_END = (
+    "The program reached its last line and ended. Use a loop that runs until the node is shut down. "
+    "If the program publishes nothing, wait with rospy.spin() (in C++: ros::spin(), or "
+    "ros::waitForShutdown() with an AsyncSpinner)."
+)
+
 
 class World:
     """A new namespace for the student's program.
@@ -180,11 +186,7 @@ def why_it_ended(done: Finished) -> str:
             "The program stopped with an error. Run the program in a terminal, and read the lines above "
             "this error message: in Python, they show where in your code the error occurred."
         )
-    return (
-        "The program reached its last line and ended. Use a loop that runs until the node is shut down. "
-        "If the program publishes nothing, wait with rospy.spin() (in C++: ros::spin(), or "
-        "ros::waitForShutdown() with an AsyncSpinner)."
-    )
+    return REACHED_ITS_END
 
 
 def _listed(names: tuple[str, ...] | list[str]) -> str:

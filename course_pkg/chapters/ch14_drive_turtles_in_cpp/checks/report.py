@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator, Mapping
 
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram
-from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import REACHED_ITS_END, World
+from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.battery_relay import BatteryRelay
 from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.cpp_program import cpp
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.peers.service_calls import Reply, Service
@@ -14,12 +15,17 @@ from course_pkg.checking.plain_values import Value
 
 THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
+TRIGGER = "std_srvs/Trigger"
 SERVICES = ("battery", "report")
 GROUPS = 30  # The check makes this number of groups of simultaneous calls.
 FAILED = 2  # The check accepts failed calls in at most this number of groups.
 FEW, MANY = 3, 8  # FEW and MANY are the numbers of simultaneous clients in the two checks.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = "The handler of /report waits for /battery, but no other thread executed the handler of /battery. "
+TOO_FEW = (
+    "One call works, but three calls at the same time do not end. Each call of /report uses one thread "
+    f"until the call ends, and /battery needs one more. Use at least {FEW + 1} threads."
+)
 FEW_THREADS = f"{HANGS}Use a spinner with at least {FEW + 1} threads."
 ONE_THREAD = (
     f"{HANGS}Handle the second queue in a separate thread, such as ros::AsyncSpinner spinner(1, &queue)."
@@ -91,16 +97,16 @@ def more_threads(context: CheckContext) -> None:
             "AsyncSpinner instead of ros::spin()."
         ),
     )
+    code = _code(context, THREADS)
+    # A program can still exist for some time after the end of main, but then no thread handles its calls.
+    ends = not re.search(r"waitForShutdown|\bspin\s*\(|\b(while|for)\b", code.partition("int main")[2])
     _reports(
         context,
         THREADS,
         FEW,
-        (
-            "One call works, but three calls at the same time do not end. Each call of /report "
-            "uses one thread until the call ends, and /battery needs one more. Use at least "
-            f"{FEW + 1} threads."
-        ),
-        hangs=FEW_THREADS if _uses_its_spinner(_code(context, THREADS)) else NOT_USED,
+        REACHED_ITS_END if ends else TOO_FEW,
+        held=True,
+        hangs=REACHED_ITS_END if ends else FEW_THREADS if _uses_its_spinner(code) else NOT_USED,
     )
 
 
@@ -199,31 +205,49 @@ def _calls_battery(context: CheckContext, *, holds: bool) -> None:
 
 
 def _reports(
-    context: CheckContext, program: TurtleProgram, clients: int, too_few: str, *, hangs: str
+    context: CheckContext,
+    program: TurtleProgram,
+    clients: int,
+    too_few: str,
+    *,
+    hangs: str,
+    held: bool = False,
 ) -> None:
+    """Call /report once, and then many times by `clients` clients at the same time.
+
+    If `held` is true, the last calls of the clients continue only when all of them have reached /battery.
+    """
     level = context.random.integer(3, 79)
     world = World(context, program.prepare(context, program), program, services=SERVICES)
     with world.run(f"_level:={level}") as running:
         world.serves(running, *SERVICES)
-        world.service("battery", "std_srvs/Trigger", [(matches("TimesUp"), NOT_SPUN)])()
-        _answers(context, world.service("report", "std_srvs/Trigger", _why(hangs)), level)
-        report = world.service("report", "std_srvs/Trigger", _why(too_few))
+        world.service("battery", TRIGGER, [(matches("TimesUp"), NOT_SPUN)])()
+        _answers(context, world.service("report", TRIGGER, _why(hangs)), level)
+        report = world.service("report", TRIGGER, _why(too_few))
         for reply in _groups(report, clients):
-            context.require(
-                f"{clients} clients that call at the same time get their responses",
-                holds=reply.response.message == f"battery: {level}",
-                expected=f"battery: {level}",
-                actual=reply.response.message,
-            )
+            _has_the_level(context, reply, clients, level)
         given = COMMENT.sub("", START.format(path="")).partition("bool ")[2].partition("int main")[0]
         code = "".join(_code(context, program).split())
         _calls_battery(context, holds="".join(given.split()) in code)
+        if held:
+            relay = BatteryRelay(world.name("battery"), clients)
+            server = context.serve(world.name("battery"), TRIGGER, relay.answer)
+            for reply in report.at_once([{}] * clients):
+                _has_the_level(context, reply, clients, level)
+            server.leave()
         # After this line, the master returns the address of the check's own server for /battery.
         drawn = context.random.word()
-        context.serve(
-            world.name("battery"), "std_srvs/Trigger", lambda _: {"success": True, "message": drawn}
-        )
+        context.serve(world.name("battery"), TRIGGER, lambda _: {"success": True, "message": drawn})
         _calls_battery(context, holds=report().message == f"battery: {drawn}")
+
+
+def _has_the_level(context: CheckContext, reply: Reply, clients: int, level: int) -> None:
+    context.require(
+        f"{clients} clients that call at the same time get their responses",
+        holds=reply.response.message == f"battery: {level}",
+        expected=f"battery: {level}",
+        actual=reply.response.message,
+    )
 
 
 def _groups(report: Service, clients: int) -> Iterator[Reply]:

@@ -47,6 +47,9 @@ if __name__ == "__main__":
     rospy.init_node("parcel_robot")
     # Write your node: imports above, functions or a class above this block, the rest here.
 """
+NOT_SUCCEEDED = (
+    "The delivery did not end in the state SUCCEEDED. Call set_succeeded at the end of the delivery."
+)
 DELIVERED = "Deliver parcels with feedback, and publish the charge of the battery."
 STOPPED = "Stop when a client cancels the delivery."
 LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows."
@@ -150,7 +153,7 @@ def _delivers(
         client,
         "a delivery succeeds",
         GoalStatus.SUCCEEDED,
-        "The delivery did not end in the state SUCCEEDED. Call set_succeeded at the end of the delivery.",
+        NOT_SUCCEEDED,
     )
     meanwhile = battery.count - before
     feedback.wait(PARCELS, SETTLING)
@@ -208,7 +211,7 @@ def _delivers_one_more(
         client,
         "a delivery succeeds",
         GoalStatus.SUCCEEDED,
-        "The second delivery did not end in the state SUCCEEDED. Call set_succeeded after each delivery.",
+        NOT_SUCCEEDED,
     )
     charge = 100.0 - PARCELS - 1
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
