@@ -92,7 +92,8 @@ def test_second_run_uses_the_stored_grades(submissions: Path, undisturbed: Path)
     assert points(undisturbed) == before
 
 
-@pytest.mark.parametrize("after", [1.5, pytest.param(4.0, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("after", [1.5, 4.0])
 def test_a_run_that_was_killed_goes_on(
     submissions: Path, undisturbed: Path, tmp_path: Path, after: float
 ) -> None:
@@ -109,6 +110,7 @@ def test_a_run_that_was_killed_goes_on(
     assert points(tmp_path) == points(undisturbed)
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(240)
 def test_a_cluster_gives_the_same_grades(submissions: Path, undisturbed: Path, tmp_path: Path) -> None:
     """Dask workers in separate processes give the same grades."""

@@ -12,6 +12,7 @@ from tests.sandbox import attacks_by_user
 from tests.sandbox.other_users import run_installed, unpacked_autograder
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(300)
 def test_attacks_by_another_user_reach_nothing(tmp_path: Path) -> None:
     """An attack cannot read a solution, change a file, earn points, or leave a running process."""
