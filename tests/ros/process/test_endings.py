@@ -176,7 +176,7 @@ with temporary_folder("killed-"):
 
 def test_exit_status_is_passed_on() -> None:
     """`returncode` is the exit status of the command, or -n if signal n ended the command."""
-    for command, status in (("exit 3", 3), ("kill -9 $$", -9), ("true", 0)):
+    for command, status in (("exit 3", 3), ("exit 255", 255), ("kill -9 $$", -9), ("true", 0)):
         process = SupervisedProcess(["sh", "-c", command])
         assert process.wait(5)
         assert process.returncode == status
