@@ -243,8 +243,8 @@ def _is_refused(context: CheckContext, world: World) -> None:
         done,
         REFUSED,
         (
-            "The server refused the call. In this case, print a message without a traceback, and end with "
-            "exit status 1."
+            "The server refused the call. In this case, print a message, and end with exit status 1, without "
+            "a traceback. In C++, test what call() returns."
         ),
     )
 
