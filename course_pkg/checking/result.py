@@ -25,7 +25,7 @@ class Result:
         error = reply.get("error")
         self._error = error if isinstance(error, dict) else None
         self._results = results
-        self._label = label  # Titles of assertions show this text for the call, such as "measure()".
+        self._label = label  # The titles of assertions contain this text, for example "measure()".
         self._hints = hints
 
     @property

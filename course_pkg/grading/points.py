@@ -1,10 +1,10 @@
 """points.json: how an instructor divides the points among the parts and their goals.
 
 The entry "05.1":4 gives 4 points to the part 05.1; these points are divided among the goals in the author's
-ratio. The entry "05.3":{"GOAL":0.5,"GOAL":1.5} sets the points of each goal, with at most two decimals. The
-entry "05.4":"all-or-nothing" means that only a pass earns points. The entry "05.5":{"all-or-nothing":4}
-means the same, with 4 points. The entry "all parts":"all-or-nothing" is the default for all parts that the
-file does not contain.
+ratio. The entry "05.3":{"GOAL A":0.5,"GOAL B":1.5} sets the points of each goal; a number has at most two
+decimals. The entry "05.4":"all-or-nothing" means that only a pass earns points. The entry
+"05.5":{"all-or-nothing":4} means the same, with 4 points. The entry "all parts":"all-or-nothing" is the
+default for all parts that the file does not contain.
 
 A stored result contains the goals that were reached. Therefore, points can be computed again without running
 a check.

@@ -26,7 +26,7 @@ FIRST = "turtle1"  # This turtle exists after a reset.
 # In one tick, the simulator handles requests for at most this time in s. Therefore, even many requests delay
 # a pose by at most this time.
 BUDGET = 0.008
-# Ticks that are more than this time in s late are skipped, for example after the machine was suspended.
+# A tick that is late by more than this time in s is skipped, for example after the machine was suspended.
 MAX_DELAY = 0.25
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
 

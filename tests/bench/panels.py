@@ -159,7 +159,7 @@ def _heard(panel: GraphPanel) -> int:
 
 
 def graph_main() -> int:
-    """Print the results. Return 1 if a result does not meet its limit."""
+    """Print the results. Return 1 if a result is not within its limit."""
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"] = master.uri
         os.environ["ROS_HOSTNAME"] = "localhost"
@@ -219,7 +219,7 @@ PAN = """async (watch) => {
 
 
 def timeline_main() -> int:
-    """Print the results. Return 1 if a result does not meet its limit."""
+    """Print the results. Return 1 if a result is not within its limit."""
     files = {"_esm": module(PANELS / "timeline/timeline.js"), "recorded": state(recording())}
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
@@ -379,7 +379,7 @@ def drain(client: BlockingKernelClient) -> None:
 
 
 def topic_main() -> int:
-    """Print the results. Return 1 if a result does not meet its limit."""
+    """Print the results. Return 1 if a result is not within its limit."""
     missed = 0
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"], os.environ["ROS_HOSTNAME"] = master.uri, "localhost"

@@ -1,4 +1,4 @@
-"""Catkin packages in the form in which students hand them in."""
+"""Catkin packages as students submit them."""
 
 from __future__ import annotations
 

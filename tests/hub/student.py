@@ -13,7 +13,7 @@ import websocket
 
 from tests.support import eventually
 
-TIMEOUT = 300.0  # s
+TIMEOUT = 300.0  # The time limit in s.
 
 
 class Student:

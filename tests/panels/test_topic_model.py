@@ -226,7 +226,7 @@ PUBLISHER: PublisherReport = {
         ),
         (
             {"reached": 0, "latch": True, "deliveries": PUBLISHER["deliveries"][:1]},
-            "Message 3 was stored until the connection, and was then sent to this panel.",
+            "Message 3 was stored until the first connection, and was then sent to this panel.",
         ),
         ({"advertised": False}, "The publisher was unregistered. The next message creates a new publisher."),
         ({"rate": 10.0, "statistics": {"rate": 9.987}}, "Publishing at 10 Hz (measured: 9.987 Hz)."),

@@ -43,7 +43,7 @@ replace("connections, 2.0)", """connections, 2.0)
         raise RuntimeError("nobody listens")""")
 # %% 02.1 wrong: counts from 1 | hint: The first number is 1.
 replace("(number)", "(number + 1)")
-# %% 02.1 wrong: publishes one number too many | hint: The function published one number
+# %% 02.1 wrong: publishes one additional number | hint: The function published one additional number
 replace("(count)", "(count + 1)")
 # %% 02.1 wrong: publishes without pauses | hint: The rate is too high
 replace("10", "1000")

@@ -304,7 +304,7 @@ replace("all(math.isfinite(value) for value in [*joints.position, *joints.veloci
 replace("if len(joints.position) != count", "if not count or len(joints.position) != count")
 # %% 15.5 wrong: publishes each mirror image twice | hint: Some mirror images arrived more than once
 replace("        mirrored.publish(", "        mirrored.publish(JointState(joints.header, joints.name, [-p for p in joints.position], [-v for v in joints.velocity], joints.effort))\n        mirrored.publish(")
-# %% 15.5 wrong: unregisters the subscriber after an invalid joint state | hint: No mirror image arrived after the first invalid joint
+# %% 15.5 wrong: unregisters the subscriber after an invalid joint state | hint: After the first invalid joint state, the node published no more messages
 replace("    if is_valid(joints):", "    if not is_valid(joints):\n        subscriber.unregister()\n    else:")
 replace('    rospy.Subscriber("joint', '    subscriber = rospy.Subscriber("joint')
 # %% 15.5 wrong: uses a loop with a pause | hint: Some mirror images are missing
@@ -314,7 +314,7 @@ replace('rospy.Subscriber("joint_states", JointState, handle_joints)\n    rospy.
         rospy.sleep(0.1)""")
 # %% 15.5 wrong: publishes 0.1 s too late | hint: The mirror images arrive late
 replace("    if is_valid(joints):", "    rospy.sleep(0.1)\n    if is_valid(joints):")
-# %% 15.5 wrong: unregisters the subscriber after thirty mirror images | hint: The node stopped after some mirror images
+# %% 15.5 wrong: unregisters the subscriber after thirty mirror images | hint: The node published some mirror images, and then published no more
 replace("    if is_valid(joints):", "    global count\n    if is_valid(joints):\n        count += 1\n        if count > 30:\n            subscriber.unregister()\n            return")
 replace("def is_valid", "count = 0\n\n\ndef is_valid")
 replace('    rospy.Subscriber("joint', '    subscriber = rospy.Subscriber("joint')

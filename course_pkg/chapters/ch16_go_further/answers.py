@@ -107,7 +107,7 @@ replace("\n                return", "")
 # %% 16.1 wrong: calls set_succeeded in the loop | hint: The goal ended after the first thing, because set_succeeded ends the goal
 replace("+ 1))\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", """+ 1))
             self.server.set_succeeded(FetchResult(fetched=fetched + 1))""")
-# %% 16.1 wrong: also checks for a cancellation after the last thing | hint: Call set_succeeded after the last thing, and check for a cancellation only
+# %% 16.1 wrong: also checks for a cancellation after the last thing | hint: Check for a cancellation only before the robot fetches a thing
 replace("        self.server.set_succeeded", """        if self.server.is_preempt_requested():
             self.server.set_preempted(FetchResult(fetched=goal.things))
             return
@@ -335,7 +335,7 @@ replace("robot.battery.publish(robot.charge)\n        ", "")
 # %% 16.4 wrong: uses a topic for the door | hint: The door moves only for a short time, and the client has to know
 replace("import Float32", "import Bool, Float32")
 replace('rospy.Service("door", SetBool', 'rospy.Subscriber("door", Bool')
-# %% 16.4 wrong: uses a service for the delivery | hint: The client wants progress reports, and it wants to cancel the delivery
+# %% 16.4 wrong: uses a service for the delivery | hint: The client needs progress reports, and it must be able to cancel the delivery
 replace("""self.server = actionlib.SimpleActionServer("deliver", FetchAction, execute_cb=self.deliver, auto_start=False)
         self.server.start()""", 'self.server = rospy.Service("deliver", SetBool, self.move_door)')
 # %% 16.4 wrong: uses a service for the capacity | hint: The user sets "capacity" when the robot starts, and clients never

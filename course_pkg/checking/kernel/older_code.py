@@ -93,7 +93,7 @@ def _handler_of(service: str) -> Value:
 
 
 def _functions_of(value: Value) -> list[FunctionType]:
-    """Return the methods of a class, or a list with the function that `value` calls."""
+    """Return the methods of the class `value`; for another object, return the function that runs its call."""
     found = vars(value).values() if isinstance(value, type) else [_function_of(value)]
     return [each for each in found if isinstance(each, FunctionType)]
 

@@ -88,7 +88,7 @@ class FaultyServer(ScriptedServer):
             return response
         if isinstance(fault.what, Late):
             return Late(fault.what.delay, response)
-        return cast(Act, fault.what)  # _act() also executes the faults that are not an Act.
+        return cast(Act, fault.what)  # _act() also executes faults of other types than Act.
 
     def _arrived(self, *, frozen: bool = False) -> Fault | None:
         """Record the time of a call, and remove the fault of this call from the plan.

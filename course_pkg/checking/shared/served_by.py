@@ -44,8 +44,8 @@ def require_served_by_program(
                 expected="a server in the process of the program",
                 actual=f"{name} is served by the node {service.node} in another process",
                 hint=(
-                    "Another process provides the service with the name in the exercise. Create "
-                    "this service in your program."
+                    "Another process provides the service of the exercise. Create this service in "
+                    "your program."
                 ),
             )
 

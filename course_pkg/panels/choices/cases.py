@@ -29,8 +29,8 @@ CASES: tuple[tuple[str, str, str], ...] = (
     (
         "A web page shows a picture of the shop. It shows a new picture every hour.",
         "a service",
-        "A picture is large, and the page needs one picture per hour. A topic would carry a "
-        "hundred thousand pictures for each picture that the page shows.",
+        "A picture is large, and the page needs one picture per hour. With a topic, the camera "
+        "would send a hundred thousand pictures for each picture that the page shows.",
     ),
     (
         "A planner computes a path through the room when the robot has to go somewhere.",

@@ -106,7 +106,7 @@ def published(report: PublisherReport, own: str) -> str:
     if not report["latch"]:
         return f"Message {count} reached no subscriber, because no subscriber was connected at that time."
     if peers:
-        return f"Message {count} was stored until the connection, and was then sent to {_all(peers)}."
+        return f"Message {count} was stored until the first connection, and was then sent to {_all(peers)}."
     return (
         f"Message {count} has reached no subscriber yet. The message is latched, so the next "
         "subscriber gets it."

@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 Catalogue = tuple[tuple[str, ...], tuple[str, ...]]
 TOOLS = {"srv": "rossrv", "msg": "rosmsg"}
 CHANGED = (
-    "The file has changed since the type was built, but programs still use the built type, "
-    "which the panel shows. Build the type again with catkin_make, and restart the kernel."
+    "The file has changed since the last build. The panel shows the type of the last build, because programs "
+    "still use this type. Build the type again with catkin_make, and restart the kernel."
 )
 UNBUILT = (
     "This type is not built yet: ROS tools can show the type, but Python cannot import it. Run "

@@ -77,8 +77,8 @@ class SupervisedProcess:
     def returncode(self) -> int | None:
         """The command's exit status, or None while any of its processes is running.
 
-        The exit status is negative if a signal ended the command. A larger status than that of any signal, such
-        as 255, is the status that the command returned.
+        The exit status is negative if a signal ended the command. A larger status than that of any signal,
+        such as 255, is the status that the command returned.
         """
         status = self._process.poll()
         return 128 - status if status is not None and 128 < status < 128 + signal.NSIG else status

@@ -56,7 +56,9 @@ def test_a_latched_message_arrives(lab: Lab, lab_page: Page) -> None:
         topic.get_by_label("Latch").check()
         topic.get_by_role("button", name="Publish", exact=True).click()
         expect(
-            topic.get_by_text("Message 1 was stored until the connection, and was then sent to this panel")
+            topic.get_by_text(
+                "Message 1 was stored until the first connection, and was then sent to this panel"
+            )
         ).to_be_visible()
         expect(topic.get_by_label("The last messages")).to_contain_text("data 0.0")
         topic.get_by_role("button", name="Unregister the publisher").click()

@@ -78,7 +78,7 @@ def test_a_number_of_moodle_is_no_id() -> None:
 
 
 def test_a_roster_with_the_numbers_of_moodle() -> None:
-    """If the roster contains Moodle's numbers, the number selects one of two students with the same name."""
+    """Of two students with the same name, Moodle's number in the roster selects one."""
     found = _matched({"Ann Lee_20": ["Ann Lee_20_assignsubmission_file_/05.ipynb"]})
     assert found.people["Ann Lee_20"].username == "alee2"
 

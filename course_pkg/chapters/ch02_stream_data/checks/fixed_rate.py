@@ -39,7 +39,7 @@ COUNTS = "Begin when a subscriber is connected, and publish all numbers at the g
     ),
     needs=["count_aloud"],
     deadline=40.0,
-    goals={COUNTS: 3, "Begin to publish after 2 s if there is no subscriber.": 1},
+    goals={COUNTS: 3, "If no subscriber connects within 2 s, publish without a subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
     """Run the student's function at two different rates, and then on a topic without a subscriber."""
@@ -163,7 +163,7 @@ def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
             ),
             (
                 list(range(count + 1)),
-                "The function published one number too many. The last number has to be `count - 1`.",
+                "The function published one additional number. The last number has to be `count - 1`.",
             ),
             (list(range(1, count + 1)), "The first number is 1. Begin the count with 0."),
             (

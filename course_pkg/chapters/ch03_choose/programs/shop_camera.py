@@ -1,9 +1,9 @@
 """The node `shop_camera`: a shop with a counter and a camera that observes the counter.
 
-The node publishes the numbers of the present customers on the topic `counter` (std_msgs/UInt32MultiArray), at
-each change and ten times per second. The node also offers the service `let_in` (course_pkg/LetIn). If
-`~every` is above 0, additional customers come at random times; `~every` is the average time in s between two
-of them.
+The node publishes the numbers of the customers at the counter on the topic `counter`
+(std_msgs/UInt32MultiArray): ten times per second, and when a customer comes or leaves. The node also offers
+the service `let_in` (course_pkg/LetIn). If `~every` is above 0, additional customers come at random times;
+`~every` is the average time in s between two of them.
 """
 
 from __future__ import annotations

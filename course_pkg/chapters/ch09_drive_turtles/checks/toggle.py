@@ -79,7 +79,7 @@ if __name__ == "__main__":
         publisher.publish(message)
         rate.sleep()
 """
-TOGGLED_BY_CALL = "Go straight ahead before the first call, and change the direction in each call."
+TOGGLED_BY_CALL = "Drive straight ahead until the first call, and change the direction in each call."
 TOGGLE_GOALS = {TOGGLED_BY_CALL: 3, "Publish twice per second, and move the turtle.": 1}
 
 

@@ -249,7 +249,7 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
                 (
                     str(count - 1),
                     (
-                        "The call of the till failed, but the thing is not on the shelf. Put the thing "
+                        "The call of the till failed, but the thing is not on the shelf again. Put the thing "
                         "back while you hold the lock."
                     ),
                 ),

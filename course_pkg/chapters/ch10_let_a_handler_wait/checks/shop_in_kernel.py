@@ -1,4 +1,4 @@
-"""A shelf that reveals a missing lock, and a shop in the kernel that uses this shelf."""
+"""A shelf that shows whether the student's code uses a lock, and a shop in the kernel with this shelf."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class CheckedShelf:
     two threads without a lock read the same number.
 
     With many threads, some reads are late: they wait for a write of another thread, and then return the new
-    number. A thread that reads without the lock, for example after its own sale, gets this new number.
+    number. So a thread that reads the number without the lock gets the number of another thread.
     """
 
     def __init__(self, count: int) -> None:

@@ -37,8 +37,9 @@ AWAY = 0.5  # A killed till starts again after this time in s, so the second att
 A_LITTLE = 0.2  # This time in s is shorter than the time limit for one attempt.
 # The check repeats the payment until one payment ends before its deadline, but stops after this time in s.
 KEEPING = 2.0
-MOST = 5  # In the longer test of the pauses, MOST is the number of attempts that fail.
-# In the longer test of the pauses, LONG is the time in s from the start of the payment to its deadline.
+# The pauses are tested twice. In the second test, the first MOST attempts fail, and LONG is the time in s
+# from the start of the payment to its deadline.
+MOST = 5
 LONG = 12.0
 
 SLOW_GROWTH = (

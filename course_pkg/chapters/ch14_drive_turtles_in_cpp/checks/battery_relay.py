@@ -33,7 +33,7 @@ class BatteryRelay:
             self._free.put(proxy)
 
     def answer(self, _: Message) -> Act:
-        """Wait for the other calls, make the same call to the program, and return its response."""
+        """Wait for the other calls, pass on this call, and return the program's response."""
         with suppress(threading.BrokenBarrierError):
             self._arrived.wait(GATHERING)
         proxy = self._free.get()

@@ -38,8 +38,8 @@ OTHER_TIME = (
 )
 LATE = "The mirror images arrive late. Publish each mirror image in the callback, without a wait or a pause."
 STOPPED = (
-    "The node stopped after some mirror images. In the callback, publish the mirror image of each valid "
-    "joint state, for any number of messages."
+    "The node published some mirror images, and then published no more. In the callback, publish the mirror "
+    "image of each valid joint state, for any number of messages."
 )
 ZEROS = (
     "The node published zeros for an invalid joint state, so the arm would move to these positions. "
@@ -229,9 +229,8 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         (
             lambda actual: actual and actual == stamps[: len(actual)] and len(actual) < 5,
             (
-                "No mirror image arrived after the first invalid joint state. Ignore only the "
-                "invalid message, "
-                "and continue with the next message."
+                "After the first invalid joint state, the node published no more messages. Ignore only "
+                "the invalid message, and continue with the next message."
             ),
         ),
         (

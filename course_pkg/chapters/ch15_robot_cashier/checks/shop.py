@@ -72,7 +72,7 @@ class Counter:
         threading.Thread(target=self._publish, daemon=True).start()
 
     def show(self, customer: bool | None) -> None:
-        """From now on, publish frames with a customer (True), without a customer (False), or none (None)."""
+        """Publish frames with a customer (True), without a customer (False), or no frames (None)."""
         self._shown = None if customer is None else self._frames[customer]
 
     def _publish(self) -> None:

@@ -97,8 +97,8 @@ def cancels_during_the_last_thing(context: CheckContext, client: actionlib.Simpl
         actual="PREEMPTED, after the last thing",
         hints=(
             "The goal was cancelled while the robot fetched the last thing, and it ended as PREEMPTED "
-            "although all things were fetched. Call set_succeeded after the last thing, and check for a "
-            "cancellation only before each thing."
+            "although all things were fetched. Check for a cancellation only before the robot fetches a "
+            "thing. After the last thing, call set_succeeded without this check."
         ),
     )
 

@@ -34,8 +34,8 @@ UNFIT = {
         "Use the kind of interface that returns a response after a short action."
     ),
     "deliver": (
-        "The client wants progress reports, and it wants to cancel the delivery. Use the kind of "
-        "interface that offers both."
+        "The client needs progress reports, and it must be able to cancel the delivery. Use the kind "
+        "of interface that offers both."
     ),
 }
 MISSING = 'The node offers nothing with this name. Use the three names "battery", "door" and "deliver".'

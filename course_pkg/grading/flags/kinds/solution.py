@@ -26,7 +26,7 @@ def find(group: Group) -> Iterator[Found]:
 
     A short answer that is equal to the solution does not prove copying, because many students write the same
     code. Therefore, the statements in the unchanged exercise cells that students get are not counted. Answers
-    that are identical to the solutions are reported only if they contain at least ten other statements in
+    that are identical to the solutions are reported only if they contain at least ten counted statements in
     total. A nearly identical answer is reported only if the solution of this exercise contains at least ten
     other statements.
     """
