@@ -235,8 +235,8 @@ replace("request.width * request.length", "request.width * request.height")
 replace("area * request.height", "area * request.length")
 # %% 07.4 wrong: rounds the area to two digits | hint: Do not round the area
 replace("area=area, ", "area=round(area, 2), ")
-# %% 07.4 wrong: rounds the volume to three digits | hint: Do not round the volume
-replace("area * request.height", "round(area * request.height, 3)")
+# %% 07.4 wrong: rounds the volume to one digit | hint: Do not round the volume
+replace("area * request.height", "round(area * request.height, 1)")
 # %% 07.4 wrong: returns an empty response | hint: The area is 0.0, because
 replace("geometryResponse(area=area, volume=area * request.height)", "geometryResponse()")
 # %% 07.4 wrong: squares the width | hint: Compute the area from request.width and request.length

@@ -618,7 +618,7 @@ replace('\n    "G": "two providers",', "")
 # %% 12.5 wrong: uses another text for a cause | hint: Copy the names from the list of causes
 replace('"killed"', '"the server was killed"')
 
-# %% 12.5 wrong: writes sets instead of strings | hint: Copy the names from the list of causes
+# %% 12.5 wrong: writes sets instead of strings | hint: One diagnosis is not a string
 diagnosis = {"A": {"killed"}, "B": {"new master"}, "C": {"frozen"}, "D": {"lock"}, "E": {"race"}, "F": {"repeated"}, "G": {"two providers"}}
 
 # %% 12.5 wrong: gives "repeated" instead of "race" | hint: The diagnosis "repeated" means that the server did the same work twice … Two handlers read the same number at the same time, but no call failed

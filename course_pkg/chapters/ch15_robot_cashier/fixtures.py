@@ -22,6 +22,9 @@ RESPAWNING = """\
 <launch>
   <arg name="wait" default="2.0" />
   <arg name="hardware" default="true" />
+  <node if="$(arg hardware)" pkg="course_pkg" type="counter_camera" name="counter_camera" />
+  <node if="$(arg hardware)" pkg="course_pkg" type="robot" name="robot" />
+  <node if="$(arg hardware)" pkg="course_pkg" type="receipt_printer" name="receipt_printer" />
   <node pkg="my_cashier" type="vision.py" name="vision" respawn="true" />
   <node pkg="my_cashier" type="customer_detector.py" name="customer_detector" respawn="true" />
   <node pkg="my_cashier" type="robot_cashier.py" name="robot_cashier" respawn="true" />

@@ -39,6 +39,7 @@ def charges_each_once(context: CheckContext, purse: CheckedPurse, charge: Servic
         f"{AT_ONCE} calls at the same time: one receipt for each request",
         expected=BUYERS,
         actual=len({receipt for _, receipt in receipts}) if len(receipts) == BUYERS else len(receipts),
+        hints=[(lambda _: len(receipts) == BUYERS, SAME_NUMBER)],
     )
 
 

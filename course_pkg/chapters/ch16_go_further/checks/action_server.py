@@ -214,7 +214,7 @@ def _takes_long_for_a_long_thing(context: CheckContext, client: actionlib.Simple
 
 def _fetches_many(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
     """Send a goal with a random number of things that the robot fetches quickly."""
-    things = context.random.integer(30, 50)
+    things = context.random.integer(60, 80)
     sends(context, client, FetchGoal(things=things, seconds=0.001))
     ends_as(context, client, "the server executes a goal to its end", GoalStatus.SUCCEEDED)
     context.expect(
