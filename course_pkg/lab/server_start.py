@@ -55,12 +55,14 @@ def await_server(server: SupervisedProcess, scratch: Path) -> Address:
     info = scratch / "runtime" / f"jpserver-{server.pid}.json"
     chosen = 0
     while True:
+        # The server can write the file and end between two rounds, so read the file also after the end.
+        ended = server.wait(LOOK)
         with suppress(OSError, ValueError, HTTPException):
             seen = json.loads(info.read_text())
             address, chosen = Address(seen["url"], seen["token"]), seen["port"]
             if _is_at(address):
                 return address
-        if server.wait(LOOK):
+        if ended:
             kind, did = (PortTaken, f"could not use port {chosen}") if chosen else (CourseError, "ended")
             raise kind(
                 f"JupyterLab {did} during its start (status {server.returncode}):\n{end_of(log_of(scratch))}"

@@ -43,8 +43,8 @@ def _built_module(name: str, kind: DefinitionKind) -> ModuleType | None:
     package, short = split_type_name(name)
     if not short.isidentifier() or not package.isidentifier():
         return None
-    # This line imports the module of a type, not its package. genpy.message imports
-    # the package, and then does not find a type that was built after this import.
+    # This line imports the module of a type, not its package. genpy.message imports the package, and then
+    # does not find a type that was built after this import.
     module = f"{package}.{kind}._{short}"
     return sys.modules.get(module) or _import(module)
 

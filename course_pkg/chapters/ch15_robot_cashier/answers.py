@@ -486,7 +486,7 @@ replace("main()", """rospy.init_node("ask_customer")
 replace('        rospy.wait_for_service("detect_customer", timeout=3)\n', "")
 # %% 15.4 wrong: uses a fixed patience | hint: The field `patience` has a wrong value
 replace('rospy.get_param("~wait", 2.0)', "2.0")
-# %% 15.4 wrong: removes the fraction of the parameter | hint: but `patience` was a whole number
+# %% 15.4 wrong: sends only the whole part of the parameter | hint: but `patience` was a whole number
 replace('rospy.get_param("~wait", 2.0)', 'int(rospy.get_param("~wait", 2.0))')
 # %% 15.4 wrong: uses another default value | hint: The second argument of rospy.get_param is this default value
 replace('"~wait", 2.0', '"~wait", 5.0')

@@ -14,6 +14,7 @@ from collections.abc import Callable, Hashable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import FrameType
+from weakref import WeakSet
 
 CALLBACK = "rospy."  # A module with this prefix calls handlers and callbacks.
 
@@ -35,14 +36,16 @@ class CellRun:
     error: str = ""  # This is the class name of the exception that ended the run.
     # The dict maps each created object to the function that shuts it down; the oldest object comes first.
     created: dict[Hashable, Close] = field(default_factory=dict)
-    threads: frozenset[int] = frozenset()  # These threads were running when the run began.
+    # These threads were running when the run began. Their identifiers are not sufficient: if one of these
+    # threads ends, a new thread can get the same identifier.
+    threads: WeakSet[threading.Thread] = field(default_factory=WeakSet)
 
     def owns_this_thread(self) -> bool:
         """Return whether the current thread belongs to this run, not to a handler or to an earlier cell."""
         thread = threading.current_thread()
         if thread is threading.main_thread():
             return True
-        return thread.ident not in self.threads and not _within_callback(sys._getframe())
+        return thread not in self.threads and not _within_callback(sys._getframe())
 
 
 class Cells:
@@ -66,7 +69,7 @@ class Cells:
         if self._current is not None:
             self._depth += 1
             return
-        run = self._current = CellRun(source, threads=_thread_ids())
+        run = self._current = CellRun(source, threads=WeakSet(threading.enumerate()))
         if cell is not None:
             previous, self._runs[cell] = self._runs.get(cell), run
             self._cells[source] = cell
@@ -110,7 +113,7 @@ class Cells:
 
         A service that is created in the `with` block does not replace a service that a cell has created.
         """
-        before, self._current = self._current, CellRun(temporary=True, threads=_thread_ids())
+        before, self._current = self._current, CellRun(temporary=True, threads=WeakSet(threading.enumerate()))
         run = self._current
         try:
             yield
@@ -125,10 +128,6 @@ class Cells:
         """
         run = self._runs.get(self._cells.get(source, ""))
         return run if run is not None and run.source != source else None
-
-
-def _thread_ids() -> frozenset[int]:
-    return frozenset(thread.ident for thread in threading.enumerate() if thread.ident is not None)
 
 
 def _within_callback(frame: FrameType | None) -> bool:

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import textwrap
+import threading
+from weakref import WeakSet
+
+import pytest
 
 from course_pkg.ros import MasterClient, PrivateMaster
+from course_pkg.ros.notebook.cells import CellRun
 from tests.notebook_kernel import NotebookKernel, Shown
 from tests.support import eventually
 
@@ -179,6 +184,37 @@ def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
     for answer in ("first", "second"):
         silent(notebook.run(textwrap.dedent(cell).replace("ANSWER", answer), "thread"))
         assert value(notebook, "ask('/threaded')") == repr(answer)
+
+
+def test_new_thread_with_the_identifier_of_an_ended_thread() -> None:
+    """A new thread belongs to the run, even if the thread has the identifier of an ended thread."""
+    owned: list[bool] = []
+
+    def new_thread(run: CellRun) -> int:
+        thread = threading.Thread(target=lambda: owned.append(run.owns_this_thread()))
+        thread.start()
+        thread.join()
+        assert thread.ident is not None
+        return thread.ident
+
+    def earlier_thread() -> tuple[CellRun, int]:
+        release = threading.Event()
+        thread = threading.Thread(target=release.wait)
+        thread.start()
+        run = CellRun(threads=WeakSet([thread]))
+        release.set()
+        thread.join()
+        assert thread.ident is not None
+        return run, thread.ident
+
+    # Linux usually gives the identifier of the thread that ended last to the next thread.
+    for _ in range(100):
+        run, identifier = earlier_thread()
+        if new_thread(run) == identifier:
+            break
+    else:
+        pytest.fail("no new thread got the identifier of an ended thread")
+    assert owned[-1]
 
 
 def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> None:

@@ -100,7 +100,7 @@ def _one_who_is_there(context: CheckContext) -> None:
     )
     context.require(
         "poll() does not pause if a customer is there",
-        holds=result.took < 0.9,
+        holds=result.took < AT_ONCE,
         expected="poll() returns immediately if a customer is there",
         actual=f"poll() returned after {result.took:.1f} s",
         hints=(

@@ -1,4 +1,4 @@
-"""14.7: a server that stands between the handlers of /report and the program's own service /battery."""
+"""14.7: a server that receives the calls of /battery from the handlers of /report, and passes them on."""
 
 from __future__ import annotations
 

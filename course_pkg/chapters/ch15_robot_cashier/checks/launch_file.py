@@ -116,17 +116,22 @@ def the_launch_file(context: CheckContext) -> None:
     context.fulfilled(LISTED)
     for words, value in (([], 2.0), (given, wait)):
         given_words = " ".join(words)
-        line = f"python3 -c '{READER}' {FILE} {given_words}"
+        line = reader_line(*words)
         worded = f"the nodes and the parameters of {FILE} {given_words}"
         printed = package.run(line, within=READING, worded=worded.strip()).out
         _passes_the_argument(context, printed, value, words)
         starts_programs(context, printed)
         _remaps_nothing(context, printed)
     space = f"/{context.random.word()}"
-    line = f"env ROS_NAMESPACE={space} python3 -c '{READER}' {FILE} {' '.join(given)}"
+    line = f"env ROS_NAMESPACE={space} {reader_line(*given)}"
     worded = f"the parameters of {FILE} in the namespace {space}"
     printed = package.run(line, within=READING, worded=worded).out
     _passes_the_argument(context, printed, wait, given, space)
+
+
+def reader_line(*given: str) -> str:
+    """Return the command line that runs READER for the launch file with the arguments `given`."""
+    return " ".join(["python3 -c", f"'{READER}'", FILE, *given])
 
 
 def _remaps_nothing(context: CheckContext, printed: str) -> None:

@@ -7,9 +7,9 @@ from contextlib import suppress
 
 from course_pkg.chapters.ch15_robot_cashier.checks.launch_file import (
     FILE,
-    READER,
     READING,
     longest_delay,
+    reader_line,
     starts_programs,
     starts_the_hardware,
 )
@@ -88,9 +88,8 @@ RESTARTED = "roslaunch starts a killed node again"  # The text is the title of a
 def the_whole_system(context: CheckContext) -> None:
     """Let customers come and leave, let the printer and the camera fail, and kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
-    command = f"python3 -c '{READER}' {FILE} hardware:=false"
-    programs = package.start(command, worded="roslaunch")
-    everything = package.start(f"python3 -c '{READER}' {FILE}", worded="roslaunch")
+    programs = package.start(reader_line("hardware:=false"), worded="roslaunch")
+    everything = package.start(reader_line(), worded="roslaunch")
     space = f"/{context.random.word()}"
     printer = Printer()
     context.serve(f"{space}/print_line", "course_pkg/PrintLine", printer.answer)

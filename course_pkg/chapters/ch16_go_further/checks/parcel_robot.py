@@ -22,6 +22,7 @@ from course_pkg.chapters.ch16_go_further.checks.robot_program import (
 )
 from course_pkg.chapters.ch16_go_further.checks.sent_goals import STATES
 from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.subscription import Subscription
 from course_pkg.msg import FetchAction, FetchGoal
 from course_pkg.waiting import wait_until
@@ -148,13 +149,7 @@ def _delivers(
 ) -> None:
     before = battery.count
     client.send_goal(FetchGoal(things=PARCELS, seconds=EACH))
-    _ends_as(
-        context,
-        client,
-        "a delivery succeeds",
-        GoalStatus.SUCCEEDED,
-        NOT_SUCCEEDED,
-    )
+    _ends_as(context, client, "a delivery succeeds", GoalStatus.SUCCEEDED, NOT_SUCCEEDED)
     meanwhile = battery.count - before
     feedback.wait(PARCELS, SETTLING)
     context.expect(
@@ -182,13 +177,11 @@ def _delivers(
             "of the action, and publish the charge in another thread."
         ),
     )
-    charge = 100.0 - PARCELS
-    battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
-    context.expect(
-        "each delivered parcel reduces the charge by 1 percent",
-        expected=charge,
-        actual=battery.arrivals[-1].fields["data"],
-        hints=[
+    _reduces_the_charge(
+        context,
+        battery,
+        100.0 - PARCELS,
+        [
             (100.0, "The charge did not change. Subtract 1 from the charge after each delivered parcel."),
             (
                 99.0,
@@ -206,25 +199,27 @@ def _delivers_one_more(
 ) -> float:
     """Let the robot deliver one more parcel; return the charge of the battery afterwards."""
     client.send_goal(FetchGoal(things=1, seconds=0.0))
-    _ends_as(
-        context,
-        client,
-        "a delivery succeeds",
-        GoalStatus.SUCCEEDED,
-        NOT_SUCCEEDED,
-    )
+    _ends_as(context, client, "a delivery succeeds", GoalStatus.SUCCEEDED, NOT_SUCCEEDED)
     charge = 100.0 - PARCELS - 1
+    _reduces_the_charge(
+        context,
+        battery,
+        charge,
+        "After a second delivery, the charge was wrong. Set the charge to 100 only at the start of the "
+        "program.",
+    )
+    return charge
+
+
+def _reduces_the_charge(context: CheckContext, battery: Subscription, charge: float, hints: Hints) -> None:
+    """Wait for the value `charge` of the battery (in percent), and assert that it is the last value."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     context.expect(
         "each delivered parcel reduces the charge by 1 percent",
         expected=charge,
         actual=battery.arrivals[-1].fields["data"],
-        hints=(
-            "After a second delivery, the charge was wrong. Set the charge to 100 only at the start of the "
-            "program."
-        ),
+        hints=hints,
     )
-    return charge
 
 
 def _counts(feedback: Subscription) -> list[int]:
@@ -268,12 +263,11 @@ def _cancels(
         ),
     )
     charge = before_it - int(client.get_result().fetched)
-    battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
-    context.expect(
-        "each delivered parcel reduces the charge by 1 percent",
-        expected=charge,
-        actual=battery.arrivals[-1].fields["data"],
-        hints=[
+    _reduces_the_charge(
+        context,
+        battery,
+        charge,
+        [
             (
                 before_it,
                 (
