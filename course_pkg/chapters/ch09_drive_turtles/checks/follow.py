@@ -284,7 +284,7 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
                 ),
             ),
             (
-                (lambda _: same(without_repeats, received, 1e-9)),
+                (lambda _: same([*without_repeats], [*received], 1e-9)),
                 (
                     "A velocity that is equal to the previous velocity is missing. Publish each message, "
                     "even if the message repeats the previous one."
