@@ -1,6 +1,7 @@
-"""The settings that both catkin and pip read; pyproject.toml contains all other settings.
+"""Contains the settings that both catkin and pip read; pyproject.toml contains all other settings.
 
-catkin runs this file with its own function `setup`, which needs the name, the version and a list of packages.
+When catkin runs this file, a function of catkin replaces `setup`. This function needs the name, the version
+and a list of packages.
 """
 
 from pathlib import Path
@@ -19,7 +20,7 @@ def names(pattern: str) -> list[str]:
 
 
 class BuildWithoutAnswers(build_py):
-    """Leave the example answers out: a student who installs the wheel must not find them."""
+    """Builds the package without the example answers, which students must not see."""
 
     def find_package_modules(self, package: str, package_dir: str) -> list[tuple[str, str, str]]:
         """Return (package, module, file) for every module except `answers`."""
@@ -32,7 +33,7 @@ setup(
     version=ElementTree.parse(HERE / "package.xml").findtext("version"),  # noqa: S314 -- our own file
     packages=[str(folder.relative_to(HERE)).replace("/", ".") for folder in PACKAGES],
     cmdclass={"build_py": BuildWithoutAnswers},
-    # Whatever lies beside the modules: front ends, settings, locks.
+    # These are the files that are not Python modules, such as front ends, settings and lock files.
     package_data={
         "course_pkg": sorted(
             str(path.relative_to(HERE / "course_pkg"))

@@ -19,13 +19,13 @@ LAB = "JupyterLab"  # All tests with JupyterLab belong to this group.
 
 
 def pytest_configure() -> None:
-    """Restore the handlers of signals that background commands of a shell ignore."""
+    """Restore the default handlers of signals that a shell disables for background commands."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
-# pytest-xdist has a hook of the same name, which reads the groups, so this function must run first.
+# This function must run first, because a hook of pytest-xdist with the same name reads the groups.
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put tests into groups. pytest-xdist runs each group on one worker.

@@ -40,7 +40,7 @@ def test_a_second_normalisation_changes_nothing() -> None:
 
 
 def test_only_parts_that_differ_between_runs_are_removed() -> None:
-    """`tidy` removes widget ids and timings from a notebook, and keeps its texts and tags."""
+    """`tidy` removes widget ids and timings from a notebook, but no texts and no tags."""
     data = {"text/plain": "Panel()", VIEW: {"model_id": "0123"}}
     shown = {"output_type": "display_data", "data": data, "metadata": {}}
     cell = code("panel", outputs=[stream("a"), stream("b\n"), shown], execution_count=77, tags=["x"])
@@ -57,7 +57,7 @@ def test_only_parts_that_differ_between_runs_are_removed() -> None:
 
 
 def test_a_readable_traceback_stays() -> None:
-    """`tidy` does not change a traceback without file paths, such as the course's own traceback."""
+    """`tidy` does not change a traceback without file paths, such as the short traceback of the course."""
     lines = [HEADER, "  This cell, line 1", "    fail()", "E: v"]
     cell = code("fail()", outputs=[{"output_type": "error", "ename": "E", "evalue": "v", "traceback": lines}])
     tidy(book(cell))

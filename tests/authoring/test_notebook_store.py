@@ -54,7 +54,7 @@ def test_a_students_notebook_has_no_answer(root: Path) -> None:
 
 
 def repair(source: str) -> list[Cell]:
-    """Return the cells of a notebook of chapter 04 in which all parts have the same solution."""
+    """Return an exercise cell and a check cell for each part of chapter 04; all have the same source."""
     cells = []
     for part in parts_of("04"):
         cells += [exercise(part.check, part.points, source), check(part.check)]
@@ -75,7 +75,7 @@ def test_an_exercise_that_repairs_a_file_begins_with_the_broken_file(tmp_path: P
 
 
 def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) -> None:
-    """If an exercise cell writes another file than the file of its check, `course sync` fails."""
+    """If an exercise cell and its check name different files, `course sync` fails."""
     write(tmp_path, book(*repair("%%writefile elsewhere.txt\nproject(lamp_services)")), "04_define_a_service")
     with pytest.raises(AuthoringError, match=r"exercise-04-4: the check gives students a cell that begins"):
         sync(root=tmp_path)
@@ -134,7 +134,7 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
     ],
 )
 def test_each_problem_of_a_solution_is_reported(tmp_path: Path, cells: list[Cell], words: str) -> None:
-    """If a solution notebook has a mistake, the error message contains its name and describes the mistake."""
+    """If a solution notebook has a mistake, the error message contains the notebook and the mistake."""
     write(tmp_path, book(*cells))
     with pytest.raises(AuthoringError, match=rf"05_write_a_server[^\n]*{words}"):
         sync(root=tmp_path)

@@ -28,7 +28,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return what NotebookStore stores for `notebook` if the stored solution is the notebook `before`."""
+    """Return the stored form of `notebook`; `before` is the solution that was stored earlier."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)

@@ -131,8 +131,8 @@ def panel_main() -> int:
 
 
 # robust: makes 200 payments with the solution of exercise 12.3, and counts the errors. The node of the cash
-# register (the till) causes a fault at every third payment. The till is a separate process; the benchmark
-# stops, kills and restarts it. The till writes each payment to a file before it sends its response. These
+# register (the till) causes a fault at every third payment. The benchmark stops, kills and restarts the till,
+# which is a separate process. The till writes each payment to a file before it sends its response. These
 # results are errors: a missing payment, a payment that was made twice, a receipt without a payment, a missing
 # receipt, and a refusal that pay() does not report. The benchmark counts a hang if a payment still runs 2 s
 # after its time limit.
@@ -201,7 +201,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """Runs the node of a cash register (the till) in a separate process; restarts it after each exit."""
+    """Runs the till (the node of a cash register) in a process, and restarts the till after each exit."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -349,8 +349,8 @@ def serve(folder: Path) -> None:
 # with and without recording. The result of a run is the lower quartile of its durations. The benchmark prints
 # the fastest run, because other programs on the machine can only make a run slower.
 
-# RECORDER_BAR is for calls on a new connection: with recording, a call may take at most RECORDER_BAR times as
-# long as without recording. EVENT_BAR is the maximum time in µs to record one event.
+# With recording, a call on a new connection may take at most RECORDER_BAR times as long as without recording.
+# EVENT_BAR is the maximum time in µs to record one event.
 RECORDER_BAR, EVENT_BAR = 1.03, 5.0
 NODE = """
 import json, os, statistics, sys, time

@@ -29,9 +29,10 @@ from tests.faults.surroundings import Surroundings
 from tests.turtlesim.fuzz import Fuzzer, resident, sane
 
 # rates: measures the CPU time of the simulator, and the regularity of the simulator's ticks. The benchmark
-# needs an idle machine. The limits are for moving turtles with subscribers: - a rate of 62.5 Hz with an error
-# of at most 1 %, and 99 % of the gaps at most 24 ms (in 20 s) - at most 4 % of a core with one turtle, and at
-# most 15 % with 12 turtles - responses of spawn, teleport and reset within 18 ms
+# needs an idle machine. The limits are for moving turtles with subscribers. The rate is 62.5 Hz with an error
+# of at most 1 %, and 99 % of the gaps are at most 24 ms (in 20 s). The simulator uses at most 4 % of a core
+# with one turtle, and at most 15 % with 12 turtles. The services spawn, teleport and reset respond within 18
+# ms.
 
 TURTLES = 12
 

@@ -18,10 +18,10 @@ from pathlib import Path
 
 from tests.bench.commands import run_command
 
-# fresh: prints how long the first `./course run rosservice list` takes on a new Debian system; this includes
-# the set-up. usage: /usr/bin/python3 -m tests.bench.setup fresh [RUNS [CODENAME]]. The benchmark has to be
-# run as root, and needs debootstrap. The benchmark creates a new system once, from the apt mirror of this
-# machine, and copies this system for each run.
+# fresh: prints how long the first `./course run rosservice list` takes on a new Debian system, including the
+# set-up. usage: /usr/bin/python3 -m tests.bench.setup fresh [RUNS [CODENAME]]. The benchmark needs root and
+# debootstrap. The benchmark creates a new system once, from the apt mirror of this machine, and copies this
+# system for each run.
 
 ROOT = Path(__file__).parents[2]
 FRESH_BAR = 60.0  # s
@@ -140,7 +140,7 @@ def tell_surroundings(system: Path) -> None:
 # rospy.
 
 ROUNDS = 21
-# The import of course_pkg may take longer than the import of rospy, by up to this time in ms.
+# The import of course_pkg may take at most this many ms longer than the import of rospy.
 IMPORTS_BAR = 60.0
 PEER = "import rospy"
 STATEMENTS = {
@@ -162,7 +162,7 @@ def import_time(statement: str) -> float:
 
 
 def imports_main() -> None:
-    """Print the median difference in duration between each import and the import of rospy."""
+    """For each import, print how much longer it takes than the import of rospy (median)."""
     taken: dict[str, list[float]] = {name: [] for name in STATEMENTS}
     for _ in range(ROUNDS):
         peer = import_time(PEER)

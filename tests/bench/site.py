@@ -135,8 +135,8 @@ def first_panels(site: Path) -> None:
 
 # axe: checks the accessibility of a whole site with all rules of axe-core. Arguments: `[SITE]`. SITE is the
 # folder of a site. The default is the last site that `./course site` wrote. Each page is checked in a wide
-# and a narrow window, in the light and dark themes, and with the search open and closed. The tests omit the
-# combinations that give the same result as another combination.
+# and a narrow window, in the light and dark themes, and with the search open and closed. The tests of the
+# site check fewer combinations, because some combinations give the same result.
 
 
 def axe_main() -> None:

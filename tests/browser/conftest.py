@@ -15,7 +15,7 @@ SIZE: ViewportSize = {"width": 1280, "height": 1000}  # size of the window in px
 
 @pytest.fixture(scope="session")
 def context(browser: Browser) -> Iterator[BrowserContext]:
-    """Return a browser context whose pages share a cache and have access to the clipboard."""
+    """Return a browser context; its pages share a cache and have access to the clipboard."""
     context = browser.new_context(viewport=SIZE, permissions=["clipboard-read", "clipboard-write"])
     yield context
     context.close()

@@ -16,7 +16,7 @@ from course_pkg.panels.panel import Panel
 
 HERE = Path(__file__).parent
 Colours = Literal["light", "dark"]
-# JupyterLab's own scripts have these addresses in a stack trace; the course's scripts have blob: addresses.
+# In a stack trace, JupyterLab's scripts have these addresses, and the course's scripts have blob: addresses.
 JUPYTERLAB = re.compile(r"https?://[^ ]*/static/lab/")
 READY = 60_000  # On a busy machine, a browser, a server and a kernel need up to this time in ms to start.
 HOST = (HERE / "host.html").read_text()
@@ -58,7 +58,7 @@ def panel(page: Page, label: str = "Service panel") -> Locator:
 
 
 def picture(target: Page | Locator, name: str) -> None:
-    """Save a screenshot to the folder COURSE_ARTIFACTS, if this variable is set."""
+    """If the variable COURSE_ARTIFACTS is set, save a screenshot to this folder."""
     if folder := os.environ.get("COURSE_ARTIFACTS"):
         Path(folder).mkdir(parents=True, exist_ok=True)
         target.screenshot(path=Path(folder) / f"{name}.png")

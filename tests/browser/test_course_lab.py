@@ -1,4 +1,4 @@
-"""The start page of `course lab`."""
+"""Tests of the start page of `course lab`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The HTML pages of `course grade` in a browser."""
+"""Tests of the HTML pages of `course grade` in a browser."""
 
 from __future__ import annotations
 

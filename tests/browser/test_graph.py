@@ -1,4 +1,4 @@
-"""The graph panel in a real browser, with and without a kernel."""
+"""Tests of the graph panel in a real browser, with and without a kernel."""
 
 from __future__ import annotations
 
@@ -259,7 +259,7 @@ def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: P
 def test_a_panel_saved_by_an_older_release_still_shows(
     widget: GraphPanel, page: Page, tmp_path: Path
 ) -> None:
-    """A panel that an older release saved, without rates and namespaces, is still drawn."""
+    """The page draws a panel that was saved by an older release and has no rates and no namespaces."""
     address = tmp_path / "page.html"
     save(widget, address)
     text = re.sub(r'"(activity|spaces)":', r'"not_\1":', address.read_text())
@@ -272,7 +272,7 @@ def test_a_panel_saved_by_an_older_release_still_shows(
 
 
 def test_rates_callers_and_folds_follow_the_graph(lab: Lab, lab_page: Page) -> None:
-    """A namespace that the student folds stays folded when the graph changes."""
+    """If the student has folded a namespace, it stays folded when the graph changes."""
     delayed = f"threading.Timer(8, lambda: exec({LATER!r}, globals())).start()"
     with running_notebook(lab_page, lab, "talk", TALK, CALL, "GraphPanel()", delayed):
         graph = panel(lab_page, "Graph panel")

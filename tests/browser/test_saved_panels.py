@@ -182,7 +182,7 @@ def test_a_chart_can_be_read_in_both_themes_and_fits(page: Page, tmp_path: Path,
 
 
 def test_a_long_curve_has_no_markers_and_an_empty_one_says_so(page: Page, tmp_path: Path) -> None:
-    """A plot with many points has no markers, and an empty plot says that it has no data."""
+    """A plot with many points has no markers, and an empty plot shows a message."""
     points = [[index / 50, math.sin(index / 20)] for index in range(1000)]
     drawn = chart(page, tmp_path, {"points": points, "count": 1000, "left_out": 0})
     line = drawn.locator("polyline")

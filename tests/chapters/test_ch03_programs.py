@@ -78,7 +78,7 @@ def report() -> CashierReportResponse:
 
 @pytest.mark.usefixtures("detector")
 def test_call_with_patience_0() -> None:
-    """A call with patience = 0 returns immediately."""
+    """A call with the waiting time `patience` = 0 returns immediately."""
     assert (detect().detected, detect().number) == (False, 0)
     came = let_in(0.0)
     answer = detect(patience=10.0)
@@ -107,7 +107,7 @@ def test_call_without_a_customer_ends_after_its_patience() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_customers_who_come_together_are_returned_one_by_one() -> None:
-    """Each call returns the first customer whose number is above the number in the request."""
+    """Each call returns the first customer with a higher number than the number in the request."""
     first = let_in(0.0, 0.0, 0.0).first
     numbers = [first - 1]
     for _ in range(3):

@@ -1,4 +1,4 @@
-"""The import check of chapter 07 finds the reason for a slow import: an endless script or a busy machine."""
+"""Tests of chapter 07's import check, which distinguishes an endless script from a busy machine."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Replying:
     def command(self, *_argv: str, within: float, worded: str) -> Finished:
         """Return the given reply as the result of a command.
 
-        In the reply, each time is a fraction of the time limit, which is in s.
+        Each time in the given reply is a fraction of the time limit `within`, and is converted to s.
         """
         times = {name: value * within for name, value in self.reply.items() if isinstance(value, float)}
         assert worded == "import server.py"
@@ -40,9 +40,9 @@ class Replying:
 
 
 def imported(**reply: float | int | str | None) -> CheckContext:
-    """Check that a script can be imported; return the check's context.
+    """Run the import check, and return the check's context.
 
-    No script runs: the check receives the given reply as the result of the import.
+    No script runs, because a fake folder returns the given reply as the result of the import.
     """
     context = CheckContext("07.4", cast("Channel", None), cast("Node", None), 1)
     folder = cast("Folder", Replying(dict(reply)))

@@ -121,7 +121,7 @@ def test_a_dead_camera_leads_to_a_refusal(camera: NodeProcess) -> None:
 
 @pytest.mark.usefixtures("till")
 def test_a_till_adds_up_and_refuses() -> None:
-    """The till counts an item once even if the item is set twice, and the till refuses an invalid item."""
+    """A new price of an item replaces the old price, and the till refuses an invalid item."""
     put = BoundedProxy("/till/set", TillSet)
     assert [put(item, cents).total for item, cents in (("milk", 120), ("bread", 340), ("milk", 110))] == [
         120,
@@ -159,7 +159,7 @@ def test_an_item_that_is_not_printed_does_not_count() -> None:
 
 
 def test_the_launch_file_leaves_the_hardware_out() -> None:
-    """With hardware:=false, the launch file starts neither the camera nor the arm nor the printer."""
+    """With hardware:=false, the launch file starts no camera, no arm and no printer."""
     nodes = [
         set(terminal("roslaunch", "--nodes", *LAUNCH, *more).stdout.split())
         for more in ([], ["hardware:=false"])

@@ -57,6 +57,6 @@ def test_attempts(source: str) -> None:
 
 
 def test_without_source_the_code_decides() -> None:
-    """If the source of a function is not available, the function is blank if its code does nothing."""
+    """A function without available source is blank if its code does nothing."""
     assert is_blank(made("def it(x):\n    ...", keep_source=False))
     assert not is_blank(made("def it(x):\n    return x + 1", keep_source=False))

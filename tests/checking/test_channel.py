@@ -68,7 +68,7 @@ def _flood(client: socket.socket) -> None:
 
 
 def test_a_line_has_a_limit(ends: tuple[Channel, socket.socket]) -> None:
-    """The channel neither sends nor accepts a line that is too long."""
+    """The channel does not send or accept a line that is too long."""
     channel, client = ends
     with pytest.raises(ChannelBroken, match="longer than"):
         channel.send({"text": "x" * LIMIT})

@@ -43,7 +43,7 @@ def test_the_goals_of_each_part_have_its_points() -> None:
 
 
 def test_a_mark_counts_after_a_failure_and_a_separate_goal_does_not() -> None:
-    """If a check stops early, a goal counts only if the check marked it and none of its assertions failed.
+    """After a check has stopped early, only marked goals without a failed assertion count.
 
     If a check runs completely, all goals without a failed assertion count.
     """

@@ -100,7 +100,7 @@ def drawer() -> Drawer:
 
 
 def proxy(placed: PlacedObjects, item: object) -> Value:
-    """Return a proxy for an object that the course has placed."""
+    """Place an object in the server, and return a proxy for the object."""
     where = placed.place(item)
     return ObjectProxies(int(str(where["port"])), str(where["key"])).proxy(dict(where["item"]))  # type: ignore[arg-type]
 

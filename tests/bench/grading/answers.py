@@ -1,14 +1,15 @@
 """Checks answers by authors who knew only the goals of the parts.
 
-Arguments: `FOLDER [FILE …] [--alone]`. Each FILE is the name of a file in FOLDER without `.py`. A file
+Arguments: `FOLDER [FILE …] [--alone]`. FILE is the name of a file in FOLDER, without the ending `.py`. A file
 contains answers in percent format. A line `# --- next cell` separates cells:
 
     # %% 05.1 right: TITLE
     # %% 05.1 wrong: TITLE | why: WHAT IS WRONG, for a person who reads the report
 
-The program prints the report of each wrong answer, and of each answer whose verdict differs from its header.
-At the end, it prints the median time of a check, and the longest checks that refused an answer. With
-`--alone`, only one check runs at a time, so other checks do not increase these times.
+The program prints the report of each wrong answer. It also prints the report of an answer if the result of
+the check differs from the header of the answer. At the end, the program prints the median time of a check,
+and the slowest checks of refused answers. With `--alone`, only one check runs at a time, so other checks do
+not increase these times.
 """
 
 from __future__ import annotations
@@ -32,12 +33,12 @@ WRITTEN = re.compile(
     r"# %% (?P<check>\d\d\.\d+) (?P<kind>right|wrong): (?P<title>[^|]+?)(?:\s*\| why: (?P<why>.+))?$"
 )
 
-# The program prints the times of this number of checks.
+# The program prints the times of this number of slow checks.
 LONGEST = 5
 
 
 def answers_main() -> int:
-    """Check the answers. Return the number of answers whose verdict differs from their header."""
+    """Check the answers. Return the number of answers for which the result differs from the header."""
     alone = "--alone" in sys.argv
     folder, *wanted = [each for each in sys.argv[1:] if each != "--alone"]
     paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]

@@ -1,12 +1,12 @@
-"""Partial credit: the points of wrong answers, and of answers that do nothing.
+"""Measures partial credit: the points of wrong answers, and of answers that do nothing.
 
 Arguments: `[few] [PART …]`.
 
 PART is the beginning of a part's id, such as 05 or 05.3. The first right answer of each part must earn full
 points, and each wrong example answer must earn fewer points. The benchmark also changes the first right
-answer into answers that do nothing. In such an answer, all functions return the same value or raise an
-exception, or the code has an error at its beginning. An answer that does nothing must earn no points. The
-exit status is the number of answers that earn a wrong number of points. If the argument `few` is given, only
+answer into answers that do nothing. In some of these answers, each function only returns a fixed value or
+raises an exception. In the other answers, the first line is an error. An answer that does nothing must earn
+no points. The exit status is the number of answers with wrong points. If the argument `few` is given, only
 two wrong answers of each part run. The benchmark omits parts without goals, because these parts have no
 partial credit.
 """
@@ -32,13 +32,13 @@ NOTHING = {
     "returns 0": "return 0",
     "returns an empty list": "return []",
     "raises": "raise RuntimeError('nothing')",
-}  # Each key describes a function, and its value is the only statement of this function.
+}  # Each key describes a function; the value is the only statement of this function.
 IDLE = "does nothing: "
 UNABLE = {"is not Python": "this is not Python\n", "raises at its start": "raise RuntimeError('nothing')\n"}
 
 
 def credit_main() -> int:
-    """Print the answers that get partial or wrong points; return the number with wrong points."""
+    """Print the answers with partial or wrong points; return the number of answers with wrong points."""
     words = sys.argv[1:]
     few = "few" in words
     asked = tuple(word for word in words if word != "few") or ("",)

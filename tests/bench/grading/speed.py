@@ -1,4 +1,4 @@
-"""Measures the speed of grading, checks runs that continue after a kill, and grades the solutions."""
+"""Measures the speed of grading, kills and continues runs of the grader, and grades the solutions."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def report(what: str, seconds: float) -> None:
 
 
 def timed(work: Callable[[], object]) -> float:
-    """Return the duration of a piece of work in s."""
+    """Run a function, and return its duration in s."""
     began = time.monotonic()
     work()
     return time.monotonic() - began
@@ -196,9 +196,9 @@ def nbgrader_python() -> Path:
 
 
 # kill: kills the grader by SIGKILL at random moments. Arguments: `[TIMES]`. Six submissions are graded once
-# without a kill. Then the benchmark does the following TIMES times (default 20): it kills a run after a
-# random time, and continues the run. After each run, the grades must be the same as without a kill, and all
-# processes must have ended.
+# without a kill. Then the benchmark starts TIMES runs (default 20), kills each run after a random time, and
+# continues the run. After each run, the grades must be the same as without a kill, and all processes must
+# have ended.
 
 COURSE = Places.of().checkout / "course"
 
@@ -206,8 +206,8 @@ COURSE = Places.of().checkout / "course"
 def kill_main() -> None:
     """Repeatedly kill a run of the grading, and start it again in the same folder.
 
-    Count the runs in which no process remained and the grades were the same as in a run without a kill. Print
-    the number.
+    Print the number of runs in which no process remained and the grades were the same as in a run without a
+    kill.
     """
     times = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
@@ -256,7 +256,7 @@ def still_there(pids: list[int]) -> list[int]:
 
 
 def alive(pid: int) -> bool:
-    """Return whether a process runs; a zombie does not run."""
+    """Return whether a process runs; a zombie does not count as running."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:

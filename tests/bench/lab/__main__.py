@@ -12,15 +12,15 @@ usage: ./course run python -m tests.bench.lab start [RUNS [NOTEBOOK]]
   `course lab` and for the unchanged `jupyter lab`.
 - `click` prints the time from a click in the page until the page shows the result from Python, for the same
   two programs.
-- `kill` kills `course lab`, its master, its kernel or the process that keeps its private network, each with
-  SIGKILL, and prints how many processes, sockets, mounts and files were left. Each of these processes is
-  killed TIMES times (default 25).
-- `isolation` compares `course lab` with `course lab --shared-graph`: the start, a click, and a check.
-- `first` compares the first start of a new user of the installation in PREFIX with the second start.
+- `kill` sends SIGKILL to `course lab`, to its master, to its kernel, and to the process that keeps its
+  private network. Each of these processes is killed TIMES times (default 25). `kill` prints how many
+  processes, sockets, mounts and files remain.
+- `isolation` measures a start, a click and a check, for `course lab` and for `course lab --shared-graph`.
+- `first` measures the first and the second start of a new user of the installation in PREFIX.
 - `students` measures a hub with COUNT students.
 - `live` measures how long a result takes from a student's outbox to the teacher's page.
 
-`./course test` installs the browser.
+`./course test` installs the browser that these measurements need.
 """
 
 from __future__ import annotations

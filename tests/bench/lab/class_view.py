@@ -78,8 +78,8 @@ def live_main() -> None:
             stack.close()
             for thread in threads:
                 thread.join(20)
-    # Results can arrive in another order. Therefore, the benchmark takes the time at which the page shows n
-    # results as the time of the n-th result.
+    # Results can arrive in a different order. So the time of the n-th result is the time when the page shows
+    # n results.
     times = sorted(
         next(when for version, when in shown if version > number) - put for number, put in enumerate(written)
     )

@@ -1,10 +1,10 @@
-"""Compares the first `course lab` of a new user of a shared installation with later starts of this user.
+"""Compares the first and the second start of `course lab` for a new user of a shared installation.
 
-Arguments: `PREFIX [RUNS]`. PREFIX is the folder of an installation by `./course install --prefix PREFIX`.
-Each run starts as a new user, with an empty home folder and an empty browser cache. For the first start and
-for the second start, the program prints the time from the command to a page with a rendered notebook and an
-idle kernel. The program also prints the size of the user's files. If root starts the program, the new user is
-the account `nobody`.
+Arguments: `PREFIX [RUNS]`. PREFIX is the folder into which `./course install --prefix PREFIX` has installed
+the course. Each run starts as a new user, with an empty home folder and an empty browser cache. For the first
+start and for the second start, the program prints the time from the command to a page with a rendered
+notebook and an idle kernel. The program also prints the size of the user's files. If root starts the program,
+the new user is the account `nobody`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Measures a hub with many students.
 
-Each student works through the HTTP and WebSocket interface: log in, start the server, run the code cells of
-chapter 05 with pauses, and run a check with a right answer in each round.
+Each student uses the HTTP and WebSocket interface. The student logs in and starts the server. Then the
+student runs the code cells of chapter 05 with pauses, and runs a check with a right answer in each round.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ def kill(times: int = 25) -> bool:
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
     victims["the holder of the graph"] = b"graph/holder.py\0"
     nothing = True
-    with tempfile.TemporaryDirectory(prefix="c", dir="/tmp") as folder:  # The path must be short.
+    with tempfile.TemporaryDirectory(prefix="c", dir="/tmp") as folder:  # The path must be short for sockets.
         killed(
             folder, victims["the holder of the graph"]
         )  # The first start creates files that are not deleted, such as locks.
@@ -41,11 +41,11 @@ def kill(times: int = 25) -> bool:
 
 
 def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
-    """Kill the process whose command line contains the given text, and then stop `course lab`.
+    """Kill the process that has the given text in its command line, and then stop `course lab`.
 
     If the text is empty, the function kills `course lab` itself. The files of `course lab` are in `folder`.
-    The function waits up to `TIMEOUT` until nothing is left. Return the waiting time in s, and the number of
-    remaining processes, sockets, mounts and files.
+    The function waits until nothing is left, but at most `TIMEOUT`. Return the waiting time in s, and the
+    number of remaining processes, sockets, mounts and files.
     """
     port, before = free_port(), files_in(folder)
     variables = {"TMPDIR": folder, "XDG_STATE_HOME": f"{folder}/state"}
@@ -54,8 +54,8 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
         assert urlsplit(address).port == port
         family = eventually(partial(complete_family, process), timeout=60)
         if pattern:
-            # The list contains the supervisor before its child process, and both have the same command line,
-            # so take the last process.
+            # The supervisor and its child process have the same command line. The child process comes last in
+            # the list.
             os.kill(having(pattern, family)[-1], signal.SIGKILL)
             family += below(process)
             process.send_signal(signal.SIGINT)
@@ -86,7 +86,7 @@ def files_in(folder: str) -> set[str]:
 
 
 def started_with(folder: str) -> list[int]:
-    """Return all processes of this computer whose environment variable TMPDIR is the given folder.
+    """Return all processes of this computer that have the given folder as TMPDIR in their environment.
 
     Linux deletes a private network when no process uses it. Therefore, an empty list means that the private
     network of the command does not exist.

@@ -24,11 +24,11 @@ from course_pkg.ports import free_port
 from tests.lab.commands import ADDRESS, ROOT, can_connect, user_environment
 from tests.support import eventually
 
-# The start of `course lab` may take at most this fraction of the duration for `jupyter lab`, and at most this
-# many seconds.
+# These are the limits for the start of `course lab`: the ratio to the duration for `jupyter lab`, and the
+# time in s.
 START_RATIO, START_BAR = 0.75, 3.0
-# A click in `course lab` may take at most this fraction of the duration in `jupyter lab`, and at most this
-# many ms.
+# These are the limits for a click in `course lab`: the ratio to the duration in `jupyter lab`, and the time
+# in ms.
 CLICK_RATIO, CLICK_BAR = 0.3, 12.0
 WARM_UP = 10  # The benchmark ignores this number of clicks at the beginning.
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
@@ -54,7 +54,7 @@ for _ in range(6):
     took.append(time.perf_counter() - began)
 print("seconds of checks:", *took[1:])
 """
-# Pause for 60 ms so that the kernel is idle again, as between two clicks of a person.
+# The pause of 60 ms lets the kernel become idle before the next click.
 CLICK = """async () => {
     await new Promise(done => setTimeout(done, 60))
     const label = document.querySelector(".widget-label")
@@ -107,7 +107,7 @@ def times_of_start(context: BrowserContext, server: Server, notebook: Path, stat
 
 
 def until_usable(page: Page) -> list[float]:
-    """Wait until the notebook and its kernel are ready, and return the time of each."""
+    """Wait until the notebook is shown and its kernel is idle; return the times of these two events."""
     page.wait_for_selector(f"{SHOWN} .jp-RenderedMarkdown h1")
     rendered = time.perf_counter()
     page.wait_for_function(IDLE)

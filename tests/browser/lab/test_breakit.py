@@ -1,4 +1,4 @@
-"""The panel "Break it" in a real JupyterLab, and on a saved page."""
+"""Tests of the panel "Break it" in a real JupyterLab, and on a saved page."""
 
 from __future__ import annotations
 

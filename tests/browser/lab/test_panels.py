@@ -1,4 +1,4 @@
-"""The graph panel, predictions, choices, a figure and the themes in a real JupyterLab."""
+"""Tests of the graph panel, predictions, choices, a figure and the themes in a real JupyterLab."""
 
 from __future__ import annotations
 
@@ -124,8 +124,8 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
         expect(panel(lab_page, "Predictions").get_by_text("1 of 2 fit", exact=True)).to_be_visible()
         choices = panel(lab_page, "Choices")
         choices.get_by_role("button", name="Choose again").click()
-        # Wait until the kernel has cleared the old choices: Playwright's check() does nothing if an option is
-        # still selected.
+        # Wait until the kernel has cleared the old choices, because check() does nothing if an option is
+        # already selected.
         expect(choices.get_by_text("2 of 2 cases have no answer.")).to_be_visible()
         for name, option in {"Joint values": "a topic", "One picture": "a service"}.items():
             choices.get_by_role("radiogroup", name=name).get_by_label(option).check()

@@ -1,4 +1,4 @@
-"""The service panel in a real JupyterLab."""
+"""Tests of the service panel in a real JupyterLab."""
 
 from __future__ import annotations
 

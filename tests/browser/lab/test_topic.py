@@ -1,4 +1,4 @@
-"""The topic panel in a real JupyterLab."""
+"""Tests of the topic panel in a real JupyterLab."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def test_errors_are_shown_at_their_fields(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_different_type_is_reported(lab: Lab, lab_page: Page) -> None:
-    """The panel shows each publisher and each subscriber whose message type differs from the panel's type."""
+    """The panel lists each publisher and each subscriber that has a different message type."""
     others = """
         talker = rospy.Publisher("/speed", String, queue_size=1, latch=True)
         talker.publish("fast")

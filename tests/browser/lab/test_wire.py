@@ -1,4 +1,4 @@
-"""The wire view on a saved page and in JupyterLab."""
+"""Tests of the wire view on a saved page and in JupyterLab."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The example answers with which the checks are tested: right and wrong answers of students.
+"""Reads the example answers: right and wrong answers with which the tests examine the checks.
 
 Each chapter has its example answers in `answers.py`, which is valid Python in percent format. A cell is one
 answer:
@@ -19,8 +19,8 @@ The source of the answer is below its header, in one of four forms:
       replace("old", "new", times=3)        the old text occurs three times, and all three are replaced
       replace("begin … end", "new text")    the old text begins and ends with these two texts
 
-Replacements are made one after the other. The old text of a replacement of whole lines starts with a line
-break. If the other answer is also a change, it has to come earlier in the file.
+Replacements are made one after the other. If a replacement replaces whole lines, its old text starts with a
+line break. If the other answer is also a change, this other answer has to come earlier in the file.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ HEADER = re.compile(
 
 @dataclass(frozen=True)
 class Answer:
-    """One answer, ready to be run."""
+    """An example answer with its complete source."""
 
     check: str
     right: bool
@@ -70,7 +70,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Replacement:
-    """One change of a source: the new text replaces the old text, which occurs a given number of times."""
+    """A change of a source: the new text replaces the old text, which must occur `times` times."""
 
     old: str
     new: str
@@ -78,7 +78,7 @@ class Replacement:
     place: str  # file and line, for error messages
 
     def apply(self, source: str) -> str:
-        """Return the changed source; raise ValueError if the old text occurs more often or less often."""
+        """Return the changed source. Raises ValueError if the old text does not occur `times` times."""
         pattern = ".*?".join(map(re.escape, self.old.split(" … ")))
         changed, found = re.subn(pattern, lambda _: self.new, source, flags=re.DOTALL)
         if found != self.times:
@@ -88,14 +88,14 @@ class Replacement:
 
 @dataclass(frozen=True)
 class Change:
-    """A source that is described by its differences from another answer's source."""
+    """A source that is made from another answer's source by replacements."""
 
     base: str  # the title of the other answer; empty for the part's first right answer
     replacements: tuple[Replacement, ...]
     place: str
 
     def apply(self, programs: dict[str, str]) -> str:
-        """Return the changed source; `programs` maps the titles of answers to the same part to their sources.
+        """Return the changed source; `programs` maps the titles of the part's answers to their sources.
 
         Raises ValueError if there is no such answer, or if the old text of a replacement is not found.
         """
@@ -123,8 +123,9 @@ def every_answer() -> Iterator[Answer]:
 def read_answers(path: Path) -> list[Answer]:
     """Return the answers of a file in their order.
 
-    Raises ValueError, with file and line, if the file is not valid Python, if a header is malformed, if two
-    answers to a part have the same title, or if a change does not fit the answer on which it is based.
+    Raises ValueError, with file and line, if the file is not valid Python or a header is malformed. Also
+    raises ValueError if two answers to a part have the same title, or if a change does not fit the other
+    answer.
     """
     text = path.read_text("utf-8")
     _parse(text, path, 1)
@@ -163,7 +164,7 @@ def _parse(source: str, path: Path, first_line: int) -> ast.Module:
 
 @cache
 def _solutions(chapter: str) -> dict[str, str]:
-    """Return a dict: for each part of a chapter, the source of the exercise cell in the solution."""
+    """Return the sources of the exercise cells in a chapter's solution; the keys are the parts."""
     (path,) = NotebookStore().solutions([chapter])
     return {part: cell["source"] for cell in code_cells(read(path)) if (part := exercise_of(cell))}
 
@@ -199,7 +200,10 @@ def _change(statements: list[ast.stmt], path: Path, header_line: int) -> Change:
 
 
 def _times(keywords: list[ast.keyword]) -> int:
-    """Return the value of the keyword `times`, or 1 without keywords, or 0 if the keywords are wrong."""
+    """Return the value of the keyword `times`.
+
+    Return 1 if there are no keywords, and 0 for wrong keywords.
+    """
     match keywords:
         case []:
             return 1

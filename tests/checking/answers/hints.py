@@ -43,7 +43,7 @@ def hints_in(path: Path) -> list[Hint]:
 
 
 def hints_of(chapter: str) -> list[Hint]:
-    """Return the hints in all checks of a chapter; the argument is its number as a string, such as "05"."""
+    """Return the hints in all checks of a chapter; the argument is the chapter's number, such as "05"."""
     goals = {(goal.text,) for part in every_part() for goal in part.goals}
     found = [hint for path in sorted(folder_of(chapter).glob("checks/**/*.py")) for hint in hints_in(path)]
     return [hint for hint in found if hint.pieces not in goals]

@@ -1,4 +1,4 @@
-"""Every check is tested with right and wrong answers."""
+"""Tests of every check with right and wrong answers."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ ANSWERS = sorted(every_answer(), key=lambda answer: -PARTS[answer.check].deadlin
 RIGHT = {answer.check: answer for answer in reversed(ANSWERS) if answer.right}
 pytestmark = pytest.mark.timeout(900)  # time limit in s for a test that waits in the queue
 # A usual run contains this number of right answers (key True) and of wrong answers (key False) to each part;
-# all other answers are slow tests. The first right answer is missing here because it is the solution, and
-# test_validation.py runs the check of the solution.
+# all other answers are slow tests. The first right answer is not included, because it is the solution, which
+# test_validation.py checks.
 USUAL = {True: (2,), False: (1,)}
 # These parts build or start programs.
 BUILDS = ("04.1", "04.3", "04.4", "04.5", "07.", "09.", "13.", "14.", "15.")
-# These are the first parts of the chapters. All answers to a part in BUILDS are slow, unless the part is in
-# FIRST.
+# These are the first parts of the chapters. All answers to the parts in BUILDS are slow tests, except for the
+# parts in FIRST.
 FIRST = {f"{chapter}.1" for chapter in chapters()}
 # Several sandboxes run on each core, because answers wait for nodes and messages most of the time.
 A_CORE = 2
@@ -48,7 +48,7 @@ STORED = {
 
 @cache
 def _job(case: Answer | Part) -> PartJob:
-    """Return the job of an answer, or of a part whose exercise is blank."""
+    """Return the sandbox job for an answer, or for a part with a blank exercise."""
     answer = RIGHT[case.check] if isinstance(case, Part) else case
     source = handed_out(case.check, answer.source) if isinstance(case, Part) else answer.source
     part = PARTS[case.check]
@@ -60,7 +60,7 @@ def _job(case: Answer | Part) -> PartJob:
 
 @pytest.fixture(scope="session")
 def pool(request: pytest.FixtureRequest) -> Iterator[WorkerPool]:
-    """The sandboxes that run answers as in grading; all answers of this test run are in their queue."""
+    """Yield the sandboxes that run answers as in grading; the queue contains all answers of this test run."""
     with WorkerPool(A_CORE * (os.cpu_count() or 1)) as pool:
         pool.submit(_job(case) for item in request.session.items if (case := _case(item)) is not None)
         yield pool
@@ -78,7 +78,7 @@ def report(request: pytest.FixtureRequest, pool: WorkerPool) -> Report:
 
 
 def _case(item: pytest.Item) -> Answer | Part | None:
-    """Return what a test of this file runs in a sandbox, or None for any other test."""
+    """Return the answer or the part that a test of this file examines, or None for any other test."""
     if not isinstance(item, pytest.Function) or item.path != Path(__file__):
         return None
     if "report" not in item.fixturenames:
@@ -88,7 +88,7 @@ def _case(item: pytest.Item) -> Answer | Part | None:
 
 
 def _params() -> Iterator[ParameterSet]:
-    """Yield the answers; mark the answers that a usual run does not include as slow."""
+    """Yield the answers; an answer that a usual test run omits has the mark `slow`."""
     count: Counter[tuple[str, bool]] = Counter()
     for answer in ANSWERS:
         count[answer.check, answer.right] += 1
@@ -105,8 +105,8 @@ def _name(answer: Answer) -> str:
 def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report: Report) -> None:
     """A right answer passes; a wrong answer fails, and the report contains the hint for its mistake.
 
-    The solution contains the text and the HTML of a pass, and nbval compares them. So they must not contain
-    the random inputs of the check.
+    The solution contains the text and the HTML of the report on a pass. nbval compares these outputs, so the
+    report must not contain the random inputs of the check.
     """
     assert report.verdict is (Verdict.PASSED if answer.right else Verdict.FAILED), str(report)
     text = " ".join(str(report).split())
@@ -127,7 +127,7 @@ def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report:
     ],
 )
 def test_blank_exercise_is_not_attempted(part: Part, report: Report) -> None:
-    """A blank exercise is neither a failure nor an error: its result is "not attempted"."""
+    """The result of a blank exercise is "not attempted", and not a failure or an error."""
     assert report.verdict is Verdict.NOT_ATTEMPTED, str(report)
     assert report.points == 0
 

@@ -108,7 +108,7 @@ def test_an_exception_without_a_line_of_the_student_has_no_traceback() -> None:
 
 
 def test_object_of_the_check_can_be_an_argument() -> None:
-    """A check can pass an argument whose class the check itself defines."""
+    """A check can create an object in the kernel and pass this object as an argument."""
     agent = KernelAgent({"f": lambda items: len(items)})
     agent.reply({"ask": 1, "do": "prepare", "code": "made = {1, 2, 3}", "within": 1.0})
     question = {"ask": 2, "do": "call", "name": "f", "args": [{"its": "made"}], "kwargs": {}, "within": 1.0}
