@@ -6,8 +6,9 @@ A test in tests/NAME depends on this folder, on the package course_pkg/NAME, and
 course_pkg/NAME may import. The import-linter contract in pyproject.toml lists these packages. A test of a
 chapter depends on the chapter's folder and on the chapters that the chapter imports.
 
-A group contains the tests of one file; in a file with tests of several chapters, each chapter is a group.
-`--changed` omits a group if the files on which its tests depend have not changed since the group passed.
+A group contains the tests of one file. If a file contains tests of several chapters, the tests of each
+chapter form a group. With `--changed`, a group runs only if a file on which its tests depend has changed
+since the group passed.
 """
 
 from __future__ import annotations

@@ -3,7 +3,8 @@
 This file is untested, because no image registry was available.
 
 Build the image from the course's Dockerfile as `ros-services-course`, and install dockerspawner 14 in
-JupyterHub's environment. Each container has its own network namespace, so its ROS graph is private.
+JupyterHub's environment. Each container has a separate network namespace, so the ROS graph of a container is
+private.
 """
 
 c = get_config()  # noqa: F821 -- JupyterHub defines this function

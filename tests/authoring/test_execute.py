@@ -128,7 +128,7 @@ run_all({"05_wait": book(code(cell))}, lambda *_: None)
 
 
 def test_an_interrupt_ends_the_kernels(tmp_path: Path) -> None:
-    """After Ctrl-C, both the kernel and the program that executes the notebooks exit."""
+    """Ctrl-C ends the kernel and the program that executes the notebooks."""
     pid_file = tmp_path / "pid"
     with subprocess.Popen(
         [sys.executable, "-c", INTERRUPTED, str(pid_file)], stderr=subprocess.DEVNULL

@@ -175,6 +175,7 @@ def graph_main() -> int:
 # `./course test` installs the browser.
 
 EVENTS, LENGTH = 2000, 10.0  # s
+
 # The first drawing may take up to this time in ms. While the view moves, the page must draw at least this
 # many frames per second.
 DRAW_BAR, PAN_BAR = 500.0, 30.0

@@ -25,6 +25,7 @@ from tests.bench.commands import run_command
 
 ROOT = Path(__file__).parents[2]
 FRESH_BAR = 60.0  # s
+
 # The new system needs these files for package downloads: mirrors, name servers and certificates.
 SURROUNDINGS = (
     "/etc/apt/sources.list",

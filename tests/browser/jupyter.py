@@ -36,7 +36,7 @@ OPEN = """async (path) => {
   await shown.context.ready;
   await shown.sessionContext.ready;
 }"""
-CONNECTED = 90_000  # The kernel may need up to this time in ms until it is idle.
+CONNECTED = 90_000  # The kernel may need up to this time in ms to become idle.
 IDLE = "() => window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
 # This file contains the course's settings of JupyterLab.
@@ -57,7 +57,7 @@ def running_lab(folder: Path) -> Iterator[Lab]:
     port = free_port()
     root = folder / "notebooks"
     root.mkdir(parents=True)
-    # The names of the kernels' sockets are limited to 107 bytes, so their folder has a short name.
+    # The path of a kernel's socket can have at most 107 bytes, so the folder of the sockets has a short name.
     with PrivateMaster() as master, tempfile.TemporaryDirectory(prefix="lab-") as runtime:
         environment = _environment(folder, runtime, master.uri)
         server = SupervisedProcess(_command(port, root), env=environment, cwd=root)

@@ -17,7 +17,7 @@ CONTRAST = (Path(__file__).parent / "contrast.js").read_text()
 
 @pytest.fixture(scope="module")
 def reports(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write the reports of a class in which each possible result occurs."""
+    """Write the reports of a class with every possible result."""
     out = tmp_path_factory.mktemp("reports")
     grades = [*class_of(30, ("05", "06")), refused("s31"), refused("s32", ""), nasty()]
     write_reports([replace(grade, sandboxed=grade.student != "s07") for grade in grades], out)

@@ -19,8 +19,9 @@ COLOURS = """(canvas, [x, y]) => {
     return new Set(Array.from({length: 81}, (_, each) => data.slice(4 * each, 4 * each + 3).join())).size
 }"""
 LENGTH = 1.0  # s
-# The drawing starts before the recording and ends after it: this fraction of the recording's duration is
-# added at each end.
+
+# The drawing is longer than the recording. At each end of the drawing, this fraction of the recording's
+# duration is added.
 EDGE = 0.02
 
 

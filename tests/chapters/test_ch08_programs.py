@@ -95,7 +95,7 @@ def test_on_off_returns_the_state(on_off: NodeProcess, number: str, state: str) 
 
 
 def test_on_off_refuses_other_numbers(on_off: NodeProcess) -> None:
-    """If the number is neither 0 nor 1, the error message contains this number and the allowed numbers."""
+    """If the number is not 0 or 1, the error message contains this number and the allowed numbers."""
     for number in ("2", "-1", "2147483647"):
         done = terminal("rosservice", "call", "/on_off", "--", number)
         assert done.returncode == 2

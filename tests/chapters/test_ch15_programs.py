@@ -1,4 +1,4 @@
-"""The course's own programs meet the specification in chapter 15."""
+"""Tests that the course's programs meet the specification in chapter 15."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ def geometry() -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def bridge() -> Iterator[NodeProcess]:
-    """Start the websocket bridge, and wait until it prints its address."""
+    """Start the websocket bridge, and wait until the bridge prints its address."""
     with NodeProcess(["rosrun", "course_pkg", "bridge", "_port:=0"]) as process:
         process.wait_for_output("ws://", timeout=20)
         yield process

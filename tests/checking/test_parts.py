@@ -61,7 +61,7 @@ def test_no_part_of_a_chapter_in_several_modules_is_forgotten() -> None:
 
 
 def test_a_chapter_depends_on_those_that_it_imports_from() -> None:
-    """Chapter 14 imports chapter 09, and chapter 09 imports chapter 07, so chapter 14 depends on both."""
+    """Chapter 14 imports 09, and chapter 09 imports 07, so chapter 14 depends on 09 and 07."""
     needed = {number: [folder.name[2:4] for folder in folders_for(number)] for number in numbers()}
     assert needed["14"] == ["07", "09", "14"]
     assert needed["15"] == ["07", "15"]

@@ -38,7 +38,7 @@ class Drawer:
 
     @remote
     def add(self, count: int, *, twice: bool = False) -> int:
-        """Add a number to the sum, or add it two times if `twice` is true; return the sum."""
+        """Add a number to the sum, and return the sum. If `twice` is true, add the number two times."""
         self.threads.add(threading.get_ident())
         self.things += count * (1 + twice)
         return self.things

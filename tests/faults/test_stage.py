@@ -28,7 +28,7 @@ result = [str(stage._resources.folder) for stage in stages]
 
 
 def nodes(master: PrivateMaster) -> list[str]:
-    """Return all nodes whose names begin with /lab."""
+    """Return all nodes with a name that begins with /lab."""
     return [node for node in MasterClient(master.uri).system_state().nodes if node.startswith("/lab")]
 
 

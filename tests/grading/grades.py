@@ -1,4 +1,4 @@
-"""Invented grades of a class, some with harmful texts."""
+"""Makes grades of an invented class; some grades contain harmful texts."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ def raw(notebook: Notebook) -> bytes:
 
 
 def folder(root: Path, files: Mapping[str, bytes]) -> Path:
-    """Write files into a folder; `files` maps their paths to their contents."""
+    """Write files into a folder; `files` maps the path of each file to its content."""
     for path, content in files.items():
         target = root / path
         target.parent.mkdir(parents=True, exist_ok=True)

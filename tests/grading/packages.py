@@ -1,4 +1,4 @@
-"""Catkin packages as students submit them."""
+"""Makes catkin packages for submissions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Submissions for grading: a chapter's solution with a student's answers."""
+"""Writes submissions for grading. A submission is a chapter's solution with a student's answers."""
 
 from __future__ import annotations
 

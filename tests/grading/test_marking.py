@@ -1,4 +1,4 @@
-"""Each part of a submission earns its points, or the report contains the reason why not."""
+"""Tests of the points that each part of a submission earns, and of the reasons for missing points."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_the_solution_earns_full_marks(worker: SandboxWorker, tmp_path: Path, ch
 
 
 def test_each_part_has_its_own_points(worker: SandboxWorker, tmp_path: Path) -> None:
-    """A wrong or blank answer, or an answer that ends its process, loses only the points of its own part."""
+    """A wrong answer, a blank answer or an answer that ends its process loses only the points of one part."""
     answers = {"05.1": WRONG, "05.2": "import os; os._exit(1)", "05.3": ""}
     grade = graded(worker, hand_in(tmp_path, "s01", answers=answers))
     verdicts = [report.verdict for report in grade.reports]

@@ -40,7 +40,7 @@ def worker(sandbox: None) -> Iterator[SandboxWorker]:
 
 
 class Jobs:
-    """A replacement for a sandbox worker: it stores each job, and returns a pass for the job."""
+    """Replaces a sandbox worker; stores each job, and returns a pass for the job."""
 
     def __init__(self) -> None:
         self.given: dict[str, PartJob] = {}
@@ -103,7 +103,7 @@ def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
-    """If the program cannot read the notebook, it still examines the package."""
+    """If the program cannot read the notebook, the program nevertheless examines the package."""
     hand_in(tmp_path, "s01", "07").write_text("{")
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
@@ -123,7 +123,7 @@ def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("path", ["../x", "/x", "a/../../x", "a//x", "./x", "", "a/" * 300 + "x"])
 def test_a_path_that_leads_out_is_not_written(tmp_path: Path, path: str) -> None:
-    """The program does not write a file whose path leads out of the folder."""
+    """If the path of a file leads out of the folder, the program does not write this file."""
     with pytest.raises(ValueError, match="is not the path of a file"):
         work_file(path, b"x").write(tmp_path / "work")
     assert os.listdir(tmp_path) == []

@@ -83,7 +83,7 @@ def _named(path: Path) -> list[dict[str, str]]:
 def _moodle_imports(
     content: bytes, grade: str, identifier: str, feedback: str, separator: str
 ) -> dict[str, tuple[float | None, str]]:
-    """Return what Moodle would import: for each participant number, the grade and the feedback."""
+    """For each participant number, return the grade and the feedback that Moodle would import."""
     text = content.decode().removeprefix("\ufeff")
     head, *rows = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
     imported = {}
@@ -215,7 +215,7 @@ def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> N
 
 
 def _canvas_imports(rows: list[list[str]], users: Mapping[str, tuple[str, str, str]]) -> dict[str, list[str]]:
-    """Return a dict: for each Canvas user id, the cells that Canvas would import.
+    """For each Canvas user id, return the cells that Canvas would import.
 
     `users` maps each Canvas user id to the tuple (SIS user id, login, name).
     """
@@ -273,7 +273,7 @@ def test_canvas(tmp_path: Path, notebook: bytes, roster: str) -> None:
 
 
 def test_canvas_forgets_chapters_of_an_earlier_run(tmp_path: Path) -> None:
-    """The run deletes Canvas files of an earlier run, so that an instructor does not import them."""
+    """The run deletes old files for Canvas, because an instructor could import them by mistake."""
     write_reports([Grade("s01", each, (report(f"{each}.1"),)) for each in ("05", "06")], tmp_path)
     write_reports([Grade("s01", "06", (report("06.1"),))], tmp_path)
     assert [path.name for path in (tmp_path / "canvas").iterdir()] == ["06.csv"]

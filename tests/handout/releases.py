@@ -14,13 +14,13 @@ ROOT = Path(__file__).parents[2]
 
 
 def make_release(out: Path, path: str = "", chapters: tuple[str, ...] = ()) -> Path:
-    """Run `course release`, and return the folder into which it has written the release."""
+    """Run `course release`, and return the folder of the release."""
     assert release(Options(out, path, chapters), NO_COMMANDS) == 0
     return out
 
 
 def files_of(folder: Path) -> dict[str, bytes]:
-    """Return a dict: for each path in the edition, the content of the file; git's own files are left out."""
+    """Return the contents of all files in the edition, except git's files; the keys are the paths."""
     found = (path for path in folder.rglob("*") if path.is_file())
     names = {str(path.relative_to(folder)): path for path in found}
     return {name: path.read_bytes() for name, path in names.items() if not name.startswith(".git/")}

@@ -168,7 +168,7 @@ def home_of(homes: Path, student: str) -> Home:
 
 @pytest.mark.parametrize("place", ["ros-course", "ros-course/notebooks", f"ros-course/notebooks/{NOTEBOOK}"])
 def test_no_link_is_followed(homes: Path, place: str) -> None:
-    """If a link replaces a folder or a notebook, the command reports the link and does not follow it."""
+    """If a link replaces a folder or a notebook, the command reports the link, but does not follow it."""
     add_home(homes, "other", {f"notebooks/{NOTEBOOK}": b"secret"})
     link = homes / "anna" / place
     link.parent.mkdir(parents=True)
@@ -181,7 +181,7 @@ def test_no_link_is_followed(homes: Path, place: str) -> None:
 
 
 def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None:
-    """The command reports a link in a package and a link to a package, and does not collect them."""
+    """The command does not collect links in packages and links to packages, but reports these links."""
     home = add_home(homes, "anna", packaged())
     sources = home / "ros-course" / "workspace" / "src"
     (sources / "my_geometry" / "passwords").symlink_to("/etc/passwd")
@@ -263,7 +263,7 @@ def test_a_time_that_is_no_date_does_no_harm(homes: Path, tmp_path: Path) -> Non
 
 
 def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """If no student has any work, the command returns 1 and asks for a check of the folder's name."""
+    """If no student has any work, the command returns 1, and the message says to check the folder's name."""
     add_home(homes, "anna", {}, "other")
     assert run(homes, tmp_path / "out") == 1
     assert "Check that ros-course is the course's folder in each home folder." in capsys.readouterr().out

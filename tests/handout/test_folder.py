@@ -57,7 +57,7 @@ def test_an_interrupted_release_is_completed(tmp_path: Path) -> None:
 
 
 def test_other_files_of_the_folder_stay(tmp_path: Path) -> None:
-    """A release neither removes nor commits an instructor's own files."""
+    """A release does not remove or commit an instructor's own files."""
     folder = tmp_path / "out"
     write(folder, a="1")
     (folder / "syllabus.md").write_text("Week 1")
@@ -121,7 +121,8 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
         ("course_pkg/chapters/ch05_write_a_server/answers/first.py", False),
         ("course_pkg/chapters/ch05_write_a_server/fixtures.py", False),
         ("solutions/05_write_a_server.ipynb", False),
-        # The release creates these files again from the solutions, because an author can have changed them.
+        # The release creates these files again from the solutions, because an author can have changed the
+        # files.
         ("notebooks/05_write_a_server.ipynb", False),
         ("roster.csv", False),
         ("grades/class.html", False),
@@ -149,7 +150,7 @@ def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
 
 
 def test_the_points_of_an_instructor_are_not_released(tmp_path: Path) -> None:
-    """With a points.json in the checkout, the edition has the same files, with the points of the course."""
+    """A points.json in the checkout does not change the edition, which contains the points of the course."""
     for name in git(ROOT, "ls-files", "--cached", "--others", "--exclude-standard").splitlines():
         if (ROOT / name).is_file() and not name.startswith(("tests/", "deploy/")):
             (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -203,7 +204,7 @@ def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository:
 def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
     """The record in the folder lists the released chapters.
 
-    If a folder has neither a record nor solutions, the error message says that the solutions are needed.
+    If a folder has no record and no solutions, the error message says that the solutions are needed.
     """
     assert released_chapters(tmp_path) is None
     with pytest.raises(SetupError, match=r"there are none in .*solutions.* Get this folder"):

@@ -19,7 +19,7 @@ from tests.handout.releases import ROOT, files_of, git, make_release, python_in
 
 SHORT = 8  # A line with fewer characters is too common to identify an answer.
 MOST = 0.8  # Another file may contain at most this fraction of an answer's lines.
-# The goal of this part contains the whole file.
+# The goals of these parts contain the whole files.
 BY_ASSIGNMENT = {"srv/geometry.srv": "07.2", "srv/ServiceExample.srv": "07.8"}
 ANSWER = """
 from course_pkg import check, join
@@ -95,7 +95,7 @@ def test_the_notebooks_are_those_that_students_get(edition: Path) -> None:
 
 
 def zipped(edition: Path) -> dict[str, zipfile.ZipInfo]:
-    """Return a dict: for each path in the edition's zip, the information about the file."""
+    """Return the information about each file in the edition's zip; the keys are the paths."""
     with zipfile.ZipFile(f"{edition}.zip") as archive:
         return {info.filename.removeprefix(f"{edition.name}/"): info for info in archive.infolist()}
 

@@ -19,7 +19,7 @@ def passwords(folder: Path) -> dict[str, str]:
 
 
 def arguments(folder: Path, students: Sequence[str]) -> list[str]:
-    """Return the arguments of `course` for a hub whose data and home folders are in the given folder."""
+    """Return the arguments of `course` for a hub with its data and home folders in the given folder."""
     roster = folder / "roster.csv"
     roster.write_text("\n".join(["username", *students]))
     homes = ["--without-accounts", str(folder / "homes")]

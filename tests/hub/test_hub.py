@@ -1,4 +1,4 @@
-"""Tests of `course hub`: it starts a hub, a student logs in and works, and no process remains at the end."""
+"""Tests of `course hub`: a student logs in and works in a hub, and no process remains at the end."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def temporary_folder(folder: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def address(folder: Path) -> Iterator[str]:
-    """Run a hub for the tests of this module; end it with SIGKILL, and assert that no process remains."""
+    """Run a hub for the tests of this module. Then kill the hub, and assert that no process remains."""
     with hub(folder, ["anna", "ben"]) as (process, address):
         yield address
         family = below(process)

@@ -85,7 +85,7 @@ def test_a_missing_home_is_reported_for_this_student_only() -> None:
 
 
 def test_a_shared_installation_keeps_the_passwords(tmp_path: Path) -> None:
-    """The hub's folder is outside the version folders, because an upgrade deletes the old version."""
+    """The hub's folder is outside the version folders, because an upgrade deletes the old version folder."""
     version = tmp_path / "versions" / "1"
     version.mkdir(parents=True)
     (version / RECORD).touch()

@@ -101,7 +101,7 @@ def test_a_new_release_keeps_the_students_work(tmp_path: Path) -> None:
 
 
 def test_a_release_is_merged_into_a_folder_without_git(tmp_path: Path) -> None:
-    """In a folder that `course lab` made, files of an old release are updated, and the student's are kept."""
+    """In a folder from `course lab`, the merge updates old files, and does not change the student's files."""
     course, home = tmp_path / "course", tmp_path / "home" / "ros-course"
     for name in ("notebooks", "figures"):
         (course / name).mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""The files of the container image are consistent with each other and with the repository."""
+"""Tests that the files of the container image agree with the files of the repository."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A small installation of the course for tests; it uses the Python environment of the checkout."""
+"""Makes small installations of the course for tests; they use the Python environment of the checkout."""
 
 from __future__ import annotations
 

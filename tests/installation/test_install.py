@@ -82,7 +82,8 @@ def test_an_uninstall_waits_for_the_users(prefix: Prefix) -> None:
 def test_unfit_prefixes_are_refused(tmp_path: Path) -> None:
     """If the prefix is unsuitable, the installer prints one message and changes nothing.
 
-    A prefix is unsuitable if it contains a space, or if it contains files or a command of another program.
+    A prefix is unsuitable if its path contains a space, or if the folder contains files or a command of
+    another program.
     """
     (tmp_path / "foreign").mkdir()
     (tmp_path / "foreign" / "file").touch()

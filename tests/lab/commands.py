@@ -94,7 +94,7 @@ def having(pattern: bytes, pids: list[int]) -> list[int]:
 
 
 def network_of(pid: int) -> list[str]:
-    """Return the words of a command line that run another command in the network of a process."""
+    """Return the first words of a command line that runs a command in the network of a process."""
     other = [kind for kind in ("user", "net") if os.readlink(f"/proc/{pid}/ns/{kind}") != own_namespace(kind)]
     return ["nsenter", "-t", str(pid), *(f"--{kind}" for kind in other), "--preserve-credentials", "--"]
 

@@ -1,4 +1,4 @@
-"""Tests of `jupyter lab` without `course lab`: the server has a master and the same settings."""
+"""Tests of `jupyter lab`: its server has a master and settings, as with `course lab`."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def by_hand(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
 
 
 def environment_of(service: Service, pattern: bytes) -> dict[str, str]:
-    """Return the environment of the server's child process whose command line contains the pattern."""
+    """Return the environment of the server's child process that has the pattern in its command line."""
     found = eventually(lambda: having(pattern, below(service.process)), READY)
     return psutil.Process(found[0]).environ()
 

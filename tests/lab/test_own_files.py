@@ -1,4 +1,4 @@
-"""Tests of a user's own folder with a shared installation."""
+"""Tests of the folder that each user of a shared installation has."""
 
 from __future__ import annotations
 

@@ -103,7 +103,7 @@ def test_the_background_ends_with_the_command(script: str, tmp_path: Path) -> No
 
 
 def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
-    """In `course run bash`, Ctrl-C stops only the foreground job, and Ctrl-Z suspends it."""
+    """In `course run bash`, Ctrl-C stops only the foreground job, and Ctrl-Z suspends the foreground job."""
     tag = f"course-run-{time.monotonic_ns()}"
     shell = pexpect.spawn(
         str(ROOT / "course"), ["run", "bash"], env={**user_environment(), "TAG": tag}, timeout=30
@@ -138,7 +138,7 @@ def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
 
 
 def tagged(tag: str) -> list[int]:
-    """Return the processes whose environment contains the given text."""
+    """Return the processes that have the given text in their environment."""
     found = []
     for environment in Path("/proc").glob("[0-9]*/environ"):
         with suppress(OSError):  # The process may have exited, or may belong to another user.

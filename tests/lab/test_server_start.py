@@ -1,4 +1,4 @@
-"""`course lab` opens its own server, even if another program takes the chosen port."""
+"""Tests that `course lab` opens only a server that it has started, even if another program takes the port."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_the_server_of_another_user_is_not_opened(other_port: int, tmp_path: Pat
 @pytest.mark.slow
 @pytest.mark.timeout(300)
 def test_labs_that_start_together_have_different_servers() -> None:
-    """If four labs start at the same time, each lab prints an address that its own server accepts."""
+    """If four labs start at the same time, each lab prints the address of a different server."""
     with ExitStack() as stack, ThreadPoolExecutor(4) as pool:
         for _ in range(5):
             started = list(pool.map(lambda _: stack.enter_context(lab()), range(4)))

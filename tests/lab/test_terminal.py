@@ -54,7 +54,7 @@ class Terminal:
         self._shell.send(text)
 
     def wait_for(self, text: str) -> str:
-        """Wait until the terminal prints the given text, and return the output before it."""
+        """Wait until the terminal prints the given text, and return the output before this text."""
         self._shell.expect_exact(text)
         return str(self._shell.before)
 

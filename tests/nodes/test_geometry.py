@@ -148,5 +148,5 @@ def test_server_is_not_blocked_by_an_idle_connection(server: NodeProcess, master
     ],
 )
 def test_reading_the_sides(words: list[str], sides: tuple[float, float, float] | None) -> None:
-    """read_sides() accepts three numbers in any Python notation; for other arguments, it returns None."""
+    """read_sides() accepts three numbers in any Python notation, and returns None for other arguments."""
     assert read_sides(words) == sides

@@ -35,7 +35,7 @@ def take(width: int = 0, height: int = 0) -> PolledImageResponse:
     ("asked", "size"), [((0, 0), (320, 240)), ((64, 0), (64, 240)), ((17, 33), (17, 33))]
 )
 def test_a_picture_has_the_requested_size(asked: tuple[int, int], size: tuple[int, int]) -> None:
-    """The picture has the requested size; for a size of 0, it has the default size."""
+    """The picture has the requested size. If the requested size is 0, the picture has the default size."""
     taken = take(*asked)
     image = taken.image
     assert (image.width, image.height, image.step, image.encoding) == (*size, 3 * size[0], "rgb8")

@@ -1,4 +1,4 @@
-"""README, the first page and the chapters contain the same paths, titles and times."""
+"""README, the first page and the chapters contain the same learning paths, titles and times."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def needed(chapter: Chapter) -> set[str]:
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.name)
 def test_a_path_needs_no_chapter_outside_it(path: LearningPath) -> None:
-    """Each chapter on a path needs only earlier chapters on this path."""
+    """Each chapter on a learning path needs only earlier chapters on this path."""
     for choice in path.choices:
         before: set[str] = set()
         for chapter in choice.chapters:

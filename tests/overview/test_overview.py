@@ -261,7 +261,7 @@ def test_a_chapter_has_the_title_and_the_name_of_its_notebook(path: Path) -> Non
 
 
 def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
-    """`course progress` prints the overview; with the options --csv and --html, it writes files."""
+    """`course progress` prints the overview, and the options --csv and --html write the overview to files."""
     store("passed", "05.1")
     shown = course("progress", "05", COURSE_STATE=str(state))
     assert (shown.returncode, shown.stderr) == (0, "")
@@ -274,7 +274,7 @@ def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
 
 
 def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None:
-    """If a chapter is unknown or a file cannot be written, the error message is one line with its name."""
+    """If a chapter is unknown or a file cannot be written, the error message is one line with the name."""
     refused = course("progress", "--csv", str(tmp_path), COURSE_STATE=str(state))
     assert refused.returncode == 1
     assert refused.stderr.startswith(f"course: {tmp_path} cannot be written")
@@ -283,7 +283,7 @@ def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None
 
 
 def test_two_kernels_lose_no_prediction(state: Path) -> None:
-    """If two kernels store one prediction each, the file of predictions contains both of them."""
+    """If two kernels store one prediction each, the file of predictions contains both predictions."""
     one, other = PredictionStore(), PredictionStore()
     PredictionModel("05.a", "?", (), one).answer("yes")
     PredictionModel("05.b", "?", (), other).answer("no")

@@ -267,7 +267,7 @@ def test_the_repr_of_the_lab_is_the_same_in_every_run(tmp_path: Path) -> None:
 
 
 def test_nothing_is_broken_before_a_case_is_pressed(master: PrivateMaster, tmp_path: Path) -> None:
-    """When a case is opened, the panel causes its fault; when the panel is closed, it undoes the fault."""
+    """The panel causes a fault when a case is opened, and undoes the fault when the panel is closed."""
     client = MasterClient(master.uri)
     panel = BreakIt("stale", store=CaseStore(tmp_path / "cases.json"))
     number = panel.cases[0]["number"]

@@ -45,7 +45,7 @@ def nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("kind", [GraphPanel, ServicePanel, TypeBrowser], ids=lambda kind: kind.__name__)
 def test_a_graph_that_cannot_be_read_is_explained(nowhere: None, kind: type[Panel]) -> None:
-    """If a panel cannot read the graph, it shows the error message and an explanation."""
+    """A panel that cannot read the graph shows the error message and an explanation."""
     panel = kind()
     assert "No ROS master" in panel.trouble
     assert panel.explained["cause"].startswith("No master answers")
@@ -216,7 +216,7 @@ def test_style_sheets_are_in_the_given_order(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("model", MODELS)
 def test_a_model_needs_no_kernel_and_no_ros_node(model: str) -> None:
-    """A panel's model imports neither rospy nor IPython nor ipywidgets."""
+    """A panel's model does not import rospy, IPython or ipywidgets."""
     names = "{'rospy', 'IPython', 'ipywidgets'} & set(sys.modules)"
     code = f"import sys, course_pkg.panels.{model}; print(sorted({names}))"
     done = subprocess.run(

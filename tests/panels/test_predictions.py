@@ -125,7 +125,7 @@ def test_predictions_are_in_the_state_folder(monkeypatch: pytest.MonkeyPatch, tm
 def test_answers_of_the_first_edition_belong_to_other_questions(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """Predictions and choices from the first edition are neither used nor changed."""
+    """Predictions and choices from the first edition are not used and not changed."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     prediction = {"key": "08.once", "question": "Where is the turtle?", "answer": "one metre"}
     choice = {"key": "08.cases", "question": "Which fits?", "cases": 1, "chosen": {CASES[0][0]: "a service"}}

@@ -49,7 +49,7 @@ def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | di
 
 
 def drawn(found: Recording) -> list[tuple[str, str]]:
-    """Return, for each arrow, the kind of the event at its start and the kind of the event at its end."""
+    """For each arrow, return the kinds of the two events that the arrow connects."""
     return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
 
 
@@ -59,7 +59,7 @@ def test_a_call_has_two_arrows() -> None:
 
 
 def test_what_was_not_recorded_is_not_drawn() -> None:
-    """If the recording contains only one of two connected events, the timeline has no arrow for them."""
+    """If the recording contains only one of two connected events, the timeline draws no arrow."""
     handler = [event for event in call() if event.kind == "handler"]
     caller = [event for event in call() if event.kind != "handler"]
     callback = message(1, 1.0, "/simulator")[1:]
@@ -224,7 +224,7 @@ def test_failures_in_plain_sentences(failed: int, words: str) -> None:
 
 
 def test_the_panel() -> None:
-    """The timeline is a widget; its text/plain output contains no data, so it is the same in every run."""
+    """The text/plain output of the timeline contains no data, so the output is the same in every run."""
     panel = Timeline(recording(*call()))
     assert repr(panel) == "Timeline()"
     assert panel.recorded["length"] == 10_000_000

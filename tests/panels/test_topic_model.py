@@ -158,7 +158,7 @@ def test_messages_are_listed_the_latest_first_and_bounded() -> None:
 
 
 def test_messages_that_cannot_be_read_are_named() -> None:
-    """The panel lists a message that it cannot read, with a note."""
+    """If the panel cannot read a message, the list contains the message with a note."""
     process = FakeProcess()
     process.model.report(
         {"messages": [message(1, "", STRING, texts=None), message(2, "", texts=None, size=1_000_000)]}
@@ -244,8 +244,8 @@ def test_the_sentence_about_a_message(change: PublisherReport, words: str) -> No
 def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connections:
     """Return the connections of a topic with at most one publisher and one subscriber.
 
-    `publisher` is the type of the publisher, and `subscriber` is that of the subscriber; "" means no such
-    node. If `md5` is not empty, the panel is connected to the publisher, whose type has this MD5 sum.
+    `publisher` and `subscriber` are the types of the two nodes. If a type is "", this node does not exist. If
+    `md5` is not empty, the panel is connected to the publisher, and the publisher's type has this MD5 sum.
     """
     sources = [{"node": "/talker", "type": publisher, "md5": md5}] if md5 else []
     publishers = [{"node": "/talker", "type": publisher}] if publisher else []

@@ -154,7 +154,7 @@ def test_a_mistake_in_the_cell_raises_an_error() -> None:
 
 
 def test_without_a_master_the_panel_gives_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If no master is running, the panel shows its form and the reason why it cannot subscribe."""
+    """Without a master, the panel shows its form and the reason why the panel cannot subscribe."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     panel = TopicPanel("/speed", "std_msgs/Float64")
     assert "No ROS master" in panel.trouble

@@ -68,7 +68,7 @@ def test_a_slow_turtle_on_plain_paper_has_its_pen_up() -> None:
 
 
 def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
-    """If a fast turtle's sensor reads the background colour, the pen is not recorded as up."""
+    """If the sensor of a fast turtle reads the background colour, the pen can still be down."""
     fast = [at(3.0 + 0.25 * step, speed=5.0) for step in range(8)]
     recording = filmed(*fast)
     assert recording.rows[-1][5] != UP
@@ -93,7 +93,7 @@ def test_reset_is_seen_by_the_first_turtle() -> None:
 
 
 def test_a_turtle_that_leaves_and_comes_back() -> None:
-    """No line connects a turtle's last position with the position where it appears again."""
+    """If a turtle disappears and appears again, no line connects the two positions."""
     recording = filmed(at(3.0))
     recording.miss(100, "turtle1")
     recording.see(200, "turtle1", at(9.0))

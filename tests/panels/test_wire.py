@@ -88,7 +88,7 @@ def body(kind: MessageType, values: dict[str, Plain]) -> bytes:
 
 
 def values(pieces: list[PieceState]) -> dict[str, str]:
-    """Return the values of the fields by field name."""
+    """Return the values of the fields; the keys are the field names."""
     return {piece["name"]: piece["value"] for piece in pieces}
 
 

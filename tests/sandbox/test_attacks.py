@@ -83,7 +83,7 @@ def attack_right(worker: SandboxWorker, attack: str) -> None:
 
 
 def attack_endlessly(worker: SandboxWorker, attack: str) -> None:
-    """Run an endless answer; assert that the worker kills it in time and gives no points."""
+    """Run an endless answer. Assert that the worker kills the answer in time and gives no points."""
     answer = job(textwrap.dedent(attack) + WRONG)
     limited = replace(answer, deadline=2.0, setup_timeout=3.0, answer_timeout=2.0)
     began = time.monotonic()

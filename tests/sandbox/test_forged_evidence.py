@@ -49,7 +49,7 @@ def answers() -> dict[str, Answer]:
 
 @pytest.mark.parametrize(("name", "most"), usual(2, {name: (name, most) for name, most in WRONG.items()}))
 def test_a_forged_reply_of_the_kernel_earns_no_points(worker: SandboxWorker, name: str, most: float) -> None:
-    """A wrong answer earns only the points for its right goals, even if it replaces the kernel's replies."""
+    """A wrong answer that replaces the kernel's replies earns only the points for its right goals."""
     answer = answers()[name]
     source, deadline = EVIDENCE + answer.source, find(answer.check).deadline
     result = worker.run(PartJob(answer.check, answer.before, (source,), answer.after, 1, deadline))

@@ -29,7 +29,7 @@ def test_attacks_by_another_user_reach_nothing(tmp_path: Path) -> None:
     found = json.loads(ran.stdout.splitlines()[-1])
     assert not found["refusal"]
     assert found["uid"] >= 60000
-    # The first probe must succeed: this shows that the probes were really run.
+    # The first probe must succeed, because this success shows that the probes have run.
     assert found["done"] == ["os.getuid() == UID"]
     assert not any(found["points"].values()), found["points"]
     assert not any(found["left"].values()), found["left"]

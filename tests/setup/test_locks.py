@@ -15,7 +15,7 @@ from course_pkg.setup.lock import LEFT_OUT, UV
 ROOT = Path(__file__).parents[2]
 DEPENDENCIES = "\ndependencies = ["
 PIN = re.compile(r"^([a-z0-9-]+)==([^ ;]+)(?: ; (.*?))?(?: \\)?$", re.MULTILINE)
-OLDEST = "< '3.11'"  # The marker of a library whose newer versions do not support Python 3.10.
+OLDEST = "< '3.11'"  # This marker selects Python 3.10, for which some libraries need older versions.
 
 
 def pinned(extra: str) -> set[tuple[str, str]]:

@@ -17,7 +17,7 @@ def fake(folder: Path, name: str, script: str) -> None:
 
 @pytest.fixture
 def kernel(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Imitate a machine whose Linux kernel refuses namespaces; return the folder of the kernel's settings."""
+    """Imitate a Linux kernel that refuses namespaces; return the folder of the kernel's settings."""
     fake(tmp_path, "unshare", "echo 'unshare failed: Operation not permitted' >&2; exit 1")
     fake(tmp_path, "nsenter", "exit 1")
     monkeypatch.setenv("PATH", str(tmp_path))
@@ -29,7 +29,7 @@ def kernel(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_setting_that_forbids_namespaces_is_named(
     kernel: Path, name: str, forbids: str, _allows: str
 ) -> None:
-    """If a setting of the kernel forbids namespaces, the advice contains the command that changes it."""
+    """If a kernel setting forbids namespaces, the advice contains the command that changes this setting."""
     setting = kernel / name.replace(".", "/")
     setting.parent.mkdir()
     setting.write_text(f"{forbids}\n")
@@ -44,7 +44,7 @@ def test_other_reasons_are_quoted(kernel: Path) -> None:
 
 
 def test_what_outgoing_connections_need(kernel: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a part is missing, the message names it: the program, its device, or a reachable name server."""
+    """The message names what is missing: the program slirp4netns, its device, or a reachable name server."""
     assert "slirp4netns is not installed" in network.outgoing_problem()[0]
     fake(kernel, "slirp4netns", "exit 0")
     monkeypatch.setattr(network, "DEVICE", str(kernel / "none"))

@@ -56,7 +56,7 @@ def test_a_wait_ends_at_once_if_a_customer_is_there() -> None:
 
 
 def test_all_waiting_threads_are_notified() -> None:
-    """Each thread waits until a customer comes whose number is above the thread's limit `after`."""
+    """Each thread waits until a customer comes who has a number above the thread's limit `after`."""
     watch = Watch()
     watch.see([1])
     with ThreadPoolExecutor(4) as pool:

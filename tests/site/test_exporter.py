@@ -162,6 +162,6 @@ def test_the_sanitizer_keeps_a_report() -> None:
 
 
 def test_a_picture_with_its_data_in_the_page_stays() -> None:
-    """The sanitizer does not change a picture whose data are in the page."""
+    """If the page contains the data of a picture, the sanitizer does not change the picture."""
     picture = '<img src="data:image/png;base64,iVBORw0KGgo=" alt="a chair" width="64" height="48">'
     assert Sanitizer()(picture) == picture

@@ -24,7 +24,8 @@ CONTRAST = "color-contrast"
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 PAGE = "00_panels.html"
-# Every test run checks the pages in `ENOUGH`. A test run checks the other pages only if they have changed.
+# Every test run checks the pages in `ENOUGH`. A test run checks the other pages only after a change of the
+# site.
 ENOUGH = ("index.html", "glossary.html", "05_write_a_server.html", PAGE)
 
 

@@ -67,7 +67,7 @@ def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) 
 
 
 def test_a_panel_is_shown_for_a_while() -> None:
-    """If the recording plan contains `watch`, the recording shows the panel for this time, then hides it."""
+    """If the recording plan contains the time `watch`, the panel is shown for this time and then hidden."""
     panel = Noted()
     record_panel(panel, {"watch": 0, "calls": [["/switch/report", "std_srvs/Trigger", {}]]})
     assert panel.done == ["shown", "hidden"]
@@ -89,7 +89,7 @@ SYSTEMS = json.loads((HERE / "systems.json").read_text("utf-8"))
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_each_plan_belongs_to_a_cell_with_a_panel(path: Path) -> None:
-    """Each recording plan belongs to a cell whose last line creates a panel that fits the plan."""
+    """For each recording plan, the last line of its cell creates a panel that fits the plan."""
     for folder in ("solutions", "notebooks"):
         cells = {cell["id"]: cell["source"] for cell in code_cells(read(ROOT / folder / path.name))}
         for cell, plan in plans(path.stem).items():
@@ -119,7 +119,7 @@ GRAPH = "course_pkg.panels.graph.view.GraphPanel"
 
 
 def saved(kind: str, **state: Plain) -> Notebook:
-    """Return a notebook whose only output is a widget with the given class and traits."""
+    """Return a notebook with one output, a widget with the given class and traits."""
     view = result(text_plain="GraphPanel()")
     view["data"][VIEW] = {"model_id": "m"}
     notebook = book(code("GraphPanel()", outputs=[view]))

@@ -1,4 +1,4 @@
-"""A chapter runs again after a change of its code or of the package."""
+"""Tests that a chapter runs again after a change of its code or of the package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A turtle simulator for all tests of a module."""
+"""A fixture that runs a turtle simulator for all tests of a module."""
 
 from __future__ import annotations
 

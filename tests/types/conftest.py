@@ -1,4 +1,4 @@
-"""Two packages for these tests: a built package, and a package that is not built."""
+"""Makes two packages for these tests: a built package, and a package that is not built."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Random service types, and random values for them."""
+"""Makes random service types, and random values for these types."""
 
 from __future__ import annotations
 

@@ -160,7 +160,7 @@ def test_lines_call_a_running_service(server: Kernel) -> None:
 
 
 def test_a_compiled_type_serves_a_built_one(server: Kernel) -> None:
-    """A client with the built class can call a service whose class was made from text."""
+    """A client with the built class can call a service with a class that was made from text."""
     told = server.run("""
 text = service_type("odd_pkg/Scalars").text
 compiled = compile_service("odd_pkg/Scalars", text).cls

@@ -48,7 +48,7 @@ def served(application: Callable[[int], AbstractContextManager[Application]]) ->
 
 
 class Kept(urllib.request.HTTPRedirectHandler):
-    """Follows no redirect."""
+    """A handler that does not follow redirects."""
 
     def redirect_request(self, *_: object) -> None:
         """Return None, so that the redirect is not followed."""

@@ -37,7 +37,7 @@ GOOD = {"package.xml": MANIFEST, "CMakeLists.txt": LISTS, "srv/Box.srv": BOX}
 
 
 def spoilt(file: str, *changes: tuple[str, str]) -> dict[str, str]:
-    """Return the files of a good package, after text replacements in one of them."""
+    """Return the files of a good package, after text replacements in one file."""
     text = GOOD[file]
     for old, new in changes:
         assert old in text
@@ -75,7 +75,10 @@ def build(workspace: Path, *arguments: str, path: str = "") -> tuple[int, str]:
 
 
 def shell(workspace: Path, line: str, *, sourced: bool = True) -> str:
-    """Run a bash command in the workspace, after setup.bash if `sourced` is true; return the output."""
+    """Run a bash command in the workspace, and return the output.
+
+    If `sourced` is true, source setup.bash first.
+    """
     line = f"source devel/setup.bash && {line}" if sourced else line
     done = subprocess.run(
         ["bash", "-c", line],

@@ -1,4 +1,4 @@
-"""The course explains the messages of ROS tools.
+"""Tests of the explanations of messages from ROS tools.
 
 Each case is a package with one mistake, which the real catkin_make builds. All cases use one workspace,
 because this saves time.
@@ -214,7 +214,7 @@ SLIPS = {
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Create a workspace whose folder has a long path."""
+    """Create a workspace in a folder with a long path."""
     return tmp_path_factory.mktemp("workspace-with-a-long-name")
 
 

@@ -1,4 +1,4 @@
-"""A kernel finds the student's built packages."""
+"""Tests that a kernel finds the student's built packages."""
 
 from __future__ import annotations
 

@@ -2,10 +2,12 @@
 
 usage: ./course run python -m tests.bench.grading SUBCOMMAND [OPTION …]
 
-- `speed` compares `course grade` with nbgrader; `kill` kills `course grade` again and again; `reference`
-  grades the solutions many times.
+- `speed` compares `course grade` with nbgrader.
+- `kill` kills `course grade` again and again.
+- `reference` grades the solutions many times.
 - `answers` checks answers by authors who knew only the goals.
-- `copies` measures how well the flags find copies; `credit` measures the points of wrong answers.
+- `copies` measures how well the flags find copies.
+- `credit` measures the points of wrong answers.
 - `review` measures the time that the review page needs to show the next answer.
 """
 

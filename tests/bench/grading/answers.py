@@ -6,10 +6,10 @@ contains answers in percent format. A line `# --- next cell` separates cells:
     # %% 05.1 right: TITLE
     # %% 05.1 wrong: TITLE | why: WHAT IS WRONG, for a person who reads the report
 
-The program prints the report of each wrong answer. It also prints the report of an answer if the result of
-the check differs from the header of the answer. At the end, the program prints the median time of a check,
-and the slowest checks of refused answers. With `--alone`, only one check runs at a time, so other checks do
-not increase these times.
+The program prints the report of each wrong answer. The program also prints the report of an answer if the
+result of the check differs from the answer's header. At the end, the program prints the median time of a
+check, and the slowest checks of refused answers. With `--alone`, only one check runs at a time, so other
+checks do not increase these times.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Measures how well the flags find copies in a class of 300 students.
 
 Arguments: `[SEED …]`. The benchmark writes the submissions of a class for chapter 05. Each of 280 students
-gets independently written answers in a random style. The 20 other students copy a student's answers, and
-disguise the copies: they change names, order and comments. Ten of these 20 students copy all four exercises,
-and the other ten copy only two exercises.
+gets independently written answers in a random style. The other 20 students copy a student's answers. To
+disguise the copies, these students change names, order and comments. Ten of these 20 students copy all four
+exercises, and the other ten copy only two exercises.
 """
 
 from __future__ import annotations

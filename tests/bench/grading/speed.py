@@ -204,7 +204,7 @@ COURSE = Places.of().checkout / "course"
 
 
 def kill_main() -> None:
-    """Repeatedly kill a run of the grading, and start it again in the same folder.
+    """Repeatedly kill a run of the grading, and continue the run in the same folder.
 
     Print the number of runs in which no process remained and the grades were the same as in a run without a
     kill.
@@ -225,7 +225,7 @@ def kill_main() -> None:
 
 
 def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bool:
-    """Kill a run of the grading, and start it again.
+    """Kill a run of the grading, and continue this run.
 
     Return whether the grades are right and no process remains.
     """

@@ -25,7 +25,7 @@ NAMES_BAR, PARTS_BAR, ERROR_BAR, WORDS_BAR = 18, 95, 12, 38_000
 
 @dataclass(frozen=True)
 class Code:
-    """A code cell: its position, its source without magics, its magics, and whether it is an exercise."""
+    """A code cell with its position, its source without magics, and its magics."""
 
     place: str
     tree: ast.Module

@@ -39,7 +39,7 @@ def serving(page: Page, lab: Lab, node: str) -> AbstractContextManager[None]:
 
 @pytest.fixture(scope="module")
 def shared(lab: Lab, context: BrowserContext) -> Iterator[Page]:
-    """Open one notebook for all tests that change neither the cells nor the kernel."""
+    """Open one notebook for all tests that do not change the cells or the kernel."""
     with new_page(context) as page, serving(page, lab, "shared"):
         yield page
 

@@ -22,7 +22,7 @@ BUILDING = 240.0
 LAST = "## 13."  # From this section on, the student works without a lab sheet.
 SERVER = "rosrun my_geometry server.py"
 SERVED = "until rosservice list | grep -q getGeometry; do sleep 0.2; done"
-# These functions run in the page; they open a terminal and return its text.
+# These functions run in the page. The functions open a terminal and return the text of the terminal.
 OPEN = """async () => {
   const main = await window.jupyterapp.commands.execute("terminal:create-new");
   await main.content.ready;

@@ -22,11 +22,13 @@ from tests.checking.answers.example_answers import Answer, every_answer
 from tests.checking.answers.workers import WorkerPool
 
 PARTS = {part.check: part for part in every_part()}
-# The answers with the longest deadlines run first, so that all sandboxes are busy until the end.
+# The answers with the longest deadlines run first, because otherwise some sandboxes would have no work at the
+# end.
 ANSWERS = sorted(every_answer(), key=lambda answer: -PARTS[answer.check].deadline)
 # This dict contains the first right answer to each part.
 RIGHT = {answer.check: answer for answer in reversed(ANSWERS) if answer.right}
 pytestmark = pytest.mark.timeout(900)  # time limit in s for a test that waits in the queue
+
 # A usual run contains this number of right answers (key True) and of wrong answers (key False) to each part;
 # all other answers are slow tests. The first right answer is not included, because it is the solution, which
 # test_validation.py checks.

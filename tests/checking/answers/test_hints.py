@@ -49,7 +49,7 @@ def test_hints_are_the_sentences_of_a_check(tmp_path: Path) -> None:
 
 
 def test_a_part_of_several_hints_shows_none_of_them() -> None:
-    """A text in a header selects a hint if the text is the whole hint, or occurs in no other hint."""
+    """A text in a header quotes a hint if the text is the whole hint, or is part of only this hint."""
     one, two = Hint("", ("Return it.",)), Hint("", ("Return it. It was ", " before."))
     assert shown_by("before", [one, two]) == {two.pieces}
     assert not shown_by("Return", [one, two])

@@ -44,7 +44,8 @@ class WorkerPool:
         return self._futures[job].result()
 
     def _run(self, job: PartJob) -> PartResult:
-        # Each thread needs its own worker, because a worker ends together with the thread that started it.
+        # Each thread needs a separate worker, because a worker ends when the thread that started the worker
+        # ends.
         if not hasattr(self._own, "worker"):
             self._own.worker = SandboxWorker(sandboxed=self._sandboxed)
             self._workers.append(self._own.worker)

@@ -122,7 +122,7 @@ time.sleep(60)
 
 
 def test_ports_of_the_own_process(bench: CommandFolders, tmp_path: Path) -> None:
-    """The list "own" omits the ports on which only a child process listens."""
+    """The list "own" contains only the ports of the process itself, and no ports of its child processes."""
     (tmp_path / "listens.py").write_text(LISTENS)
     folder = bench.folder(["listens.py"], {})["folder"]
     process = bench.start(["python", "listens.py", "parent"], folder)["process"]

@@ -39,7 +39,7 @@ def prints() -> None:
 
 
 def waits() -> None:
-    """Wait in a library function that runs its own clean-up code."""
+    """Wait in a library function that has clean-up code."""
     while True:
         try:
             threading.Event().wait()

@@ -18,7 +18,7 @@ from course_pkg.ros import BoundedProxy, MasterClient, PrivateMaster
 from course_pkg.ros.protocol.json_channel import Json
 from tests.support import eventually
 
-# rospy's client does not close its sockets; the garbage collector closes them.
+# rospy's client does not close its sockets; the garbage collector closes the sockets later.
 pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 AWAY = 0.2  # A crashed server is started again after this time in s.
 

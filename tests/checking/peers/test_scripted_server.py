@@ -22,7 +22,7 @@ from course_pkg.checking.peers.scripted_server import (
 from course_pkg.ros import MasterClient, PrivateMaster
 from tests.support import eventually
 
-# rospy's client does not close its sockets; the garbage collector closes them.
+# rospy's client does not close its sockets; the garbage collector closes the sockets later.
 pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 
 

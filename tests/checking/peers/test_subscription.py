@@ -202,7 +202,7 @@ def test_a_message_in_a_message_is_a_dict(check: Kernel) -> None:
 
 
 def test_the_rate_of_arrivals() -> None:
-    """The rate is the number of intervals per second; it is 0 for fewer than two messages."""
+    """The rate is the number of intervals per second. For fewer than two messages, the rate is 0."""
 
     def at(*times: float) -> list[Arrival]:
         return [Arrival({}, time, "/student", latched=False) for time in times]

@@ -146,7 +146,7 @@ NOT_EXAMINED = {
 @pytest.mark.usefixtures("sandbox")
 @pytest.mark.parametrize("attack", usual(1, NOT_EXAMINED))
 def test_an_answer_that_prevents_its_check_has_failed(tmp_path: Path, attack: str) -> None:
-    """If an answer prevents its check from finishing, the part keeps its maximum and earns no points."""
+    """If an answer stops its check, the part earns no points, but the maximum of the part does not change."""
     answers = dict.fromkeys([f"05.{number}" for number in range(2, 9)], "")
     answers["05.1"] = textwrap.dedent(attack) + WRONG
     work = hand_in(tmp_path / "work", "mia", answers=answers).read_bytes()

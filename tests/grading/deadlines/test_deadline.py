@@ -132,7 +132,7 @@ def test_the_note_says_when() -> None:
 
 
 def test_a_time_that_is_not_known() -> None:
-    """A submission whose time is unknown counts as on time and gets a note.
+    """A submission without a known time counts as on time and gets a note.
 
     If all times are missing, grading stops with an error.
     """

@@ -48,7 +48,7 @@ def test_no_time(written: str) -> None:
 
 
 def test_a_time_without_any_zone() -> None:
-    """If neither the text nor the argument contains a time zone, the result is None."""
+    """If the text and the argument contain no time zone, the result is None."""
     assert moment_of("2026-11-01 23:59", None) is None
     assert moment_of("2026-11-01 23:59 Z", None) is not None
 

@@ -144,7 +144,7 @@ int main(int count, char** words)
 
 
 def _class(**answers: str) -> dict[str, tuple[str, ...]]:
-    """Return a dict: for each student with a flag, the students with a similar answer to exercise 05.4."""
+    """For each student with a flag, return the students with a similar answer to exercise 05.4."""
     handed_in = [submission(student, {"05.4": source}) for student, source in answers.items()]
     return {student: flags[0].others for student, flags in flags_of(["copies"], *handed_in).items()}
 

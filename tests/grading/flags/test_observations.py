@@ -75,7 +75,7 @@ ORDINARY = [
 
 @pytest.fixture(scope="module")
 def found() -> dict[str, set[str]]:
-    """Return a dict: for each tested line, the kinds of flags that the line causes."""
+    """For each tested line, return the kinds of flags that the line causes."""
     lines = [*(line for line, _ in LINES), *ORDINARY]
     handed_in = [submission(line, {"05.1": ANSWER.format(line=line)}) for line in lines]
     flags = flags_of(SEARCHED, *handed_in)
@@ -103,7 +103,7 @@ def test_a_flag_shows_the_line() -> None:
 
 
 def test_the_solutions_have_no_flags() -> None:
-    """Neither a solution nor a handed-out notebook gets a flag."""
+    """Solutions and handed-out notebooks get no flags."""
     for chapter in chapters():
         handed_in = submission("s01", solutions(chapter), chapter), submission("s02", {}, chapter)
         assert flags_of(SEARCHED, *handed_in) == {}, chapter

@@ -26,7 +26,7 @@ def _with_folders(root: Path, files: dict[str, bytes], *names: str) -> Path:
 
 
 def test_an_empty_folder_is_listed(tmp_path: Path) -> None:
-    """The program lists each student whose folder contains no work."""
+    """If a student's folder contains no work, the program lists this student."""
     files = {f"s01/{FILE}": NOTEBOOK, "s02/.DS_Store": b"x"}
     found = _found(_with_folders(tmp_path, files, "s03", "s04/chapter 05/more"))
     assert found == {"s01": "", **dict.fromkeys(("s02", "s03", "s04"), "The student handed in nothing:")}
@@ -47,7 +47,7 @@ def test_the_folders_of_moodle(tmp_path: Path) -> None:
 
 
 def test_a_zip(tmp_path: Path) -> None:
-    """A zip member whose name ends with a slash is an empty folder."""
+    """If the name of a zip member ends with a slash, this member is an empty folder."""
     path = zipped(tmp_path / "class.zip", {f"class/s01/{FILE}": NOTEBOOK, "class/s02/": b"", "../s03/": b""})
     assert list(_found(path)) == ["s01", "s02"]
 

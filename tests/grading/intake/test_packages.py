@@ -123,7 +123,7 @@ def test_links_and_devices_are_left_out(tmp_path: Path) -> None:
 
 
 def test_a_package_xml_that_is_a_link(tmp_path: Path) -> None:
-    """The program does not examine a package whose package.xml is a link, and the error says why."""
+    """If package.xml is a link, the program does not examine the package, and the error names the link."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     (package / "package.xml").unlink()
     (package / "package.xml").symlink_to("/etc/passwd")

@@ -230,7 +230,7 @@ def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
 
 
 def test_readable_notebook_is_used_instead_of_a_broken_one(tmp_path: Path, five: bytes) -> None:
-    """If the program can read only one notebook of a chapter, it grades this notebook."""
+    """If only one of a chapter's notebooks can be read, the program grades this notebook."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, "s01/05_write_a_server (2).ipynb": b"{"})
     [found] = submissions(source)
     assert (found.origin, found.problem) == (f"s01/{FIVE}", "")
@@ -351,7 +351,7 @@ def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: p
     "name", ["../s01/" + FIVE, "/s01/" + FIVE, "C:\\s01\\" + FIVE, "s01/../../" + FIVE, "..\\s01\\" + FIVE]
 )
 def test_paths_that_lead_out(tmp_path: Path, five: bytes, name: str) -> None:
-    """The program does not grade a zip member whose path leads out of the zip."""
+    """If the path of a zip member leads out of the zip, the program does not grade this member."""
     [found] = submissions(zipped(tmp_path / "a.zip", {name: five}))
     assert "outside the archive" in found.problem
     assert [path.name for path in tmp_path.iterdir()] == ["a.zip"]
@@ -367,7 +367,7 @@ def test_a_link_in_a_zip(tmp_path: Path) -> None:
 
 
 def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
-    """The program does not unpack a huge zip member, even if the zip contains a wrong size."""
+    """The program does not unpack a huge zip member, even if the zip says that the member is small."""
     bomb = b" " * (archive.LARGEST - 5)
     source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": bomb, f"s02/{FIVE}": five})
     bad, good = submissions(source)
@@ -441,7 +441,7 @@ def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content
 
 
 def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
-    """A file in a student's folder never counts for another student whose name is in the file's path."""
+    """A file counts for the student of its folder, even if its path also contains another student's name."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
         "submission_metadata.yml": GRADESCOPE,

@@ -12,7 +12,7 @@ ABOVE = ("import math", "def area(box):\n    return math.prod(box)", "side = 2",
 
 
 def test_cells_that_define_a_needed_name_are_found() -> None:
-    """For a name, the result contains the nearest defining cell and all cells that this cell needs."""
+    """The result contains the nearest cell that defines the name, and all cells that this cell needs."""
     assert needed("def double(box):\n    return 2 * area(box)", "", ABOVE) == ABOVE[:2]
 
 

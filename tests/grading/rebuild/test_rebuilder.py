@@ -40,7 +40,7 @@ REFERENCE = book(
 
 
 def _student(change: Callable[[Cells], object] = lambda _: None, **answers: str) -> bytes:
-    """Return a student's notebook with these answers, and make a change to its cells.
+    """Make a student's notebook with these answers, change its cells, and return the notebook.
 
     The keys of `answers` are "d", "c" and "w", for the cells D, C and W.
     """
@@ -65,7 +65,10 @@ def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
 
 
 def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
-    """Insert a student's own cells below the named cell, or above it if `shift` is 0."""
+    """Insert a student's additional cells below the named cell.
+
+    If `shift` is 0, insert the cells above the named cell.
+    """
     place = _place(cells, name) + shift
     cells[place:place] = [code(source, id=f"own-{place}-{number}") for number, source in enumerate(sources)]
 
@@ -195,7 +198,7 @@ def test_last_of_several_answers_is_used() -> None:
 
 
 def test_identical_copy_leads_to_no_note() -> None:
-    """A copied exercise cell with the same answer, no code or a blank exercise does not cause a note."""
+    """If a copied exercise cell has the same answer, no code or a blank exercise, there is no note."""
     for source in (ANSWER, "", BLANK):
         made = _rebuilt(_student(lambda cells, source=source: _copied(cells, D, source), d=ANSWER))
         assert (made.answers["05.1"], made.notes) == (ANSWER, ())
@@ -211,7 +214,7 @@ def test_a_helper_split_off_belongs_to_the_answer() -> None:
 
 
 def test_a_file_that_was_split() -> None:
-    """If a student has split the cell that writes a file into two cells, the rebuilder joins them."""
+    """If a student has split a cell that writes a file, the rebuilder joins the two cells."""
 
     def change(cells: Cells) -> None:
         _copied(cells, W, "int16 b")

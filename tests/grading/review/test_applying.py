@@ -1,4 +1,4 @@
-"""Tests of reports to which an instructor's points and comments are applied."""
+"""Tests of reports that contain an instructor's points and comments."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def test_a_changed_answer_is_reported() -> None:
 
 
 def test_a_reviewed_part_needs_no_look() -> None:
-    """If an instructor has reviewed a part, the part needs no more work, even if its check did not finish."""
+    """A reviewed part needs no more work, even if the check of the part did not finish."""
     grade = graded("s01")
     assert needs_look(grade)
     assert not needs_look(reviewed([grade], _overrides(Override("s01", "05.2", 0)))[0])

@@ -89,8 +89,8 @@ def test_a_folder_that_cannot_be_written(browser: Browser, tmp_path: Path) -> No
         page.keyboard.press("c")
         page.keyboard.type("Keep me.")
         for draft in _drafts(out):
-            # The test creates a folder with the name of the temporary file, so that even root cannot write
-            # this file.
+            # The test creates a folder with the name of the temporary file, because even root cannot
+            # overwrite a folder.
             draft.mkdir()
         page.keyboard.press("Escape")
         expect(page.get_by_role("alert")).to_contain_text("Not saved: overrides.csv cannot be written")

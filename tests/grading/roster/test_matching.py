@@ -65,7 +65,7 @@ def test_a_number_decides_between_two_students_with_one_name() -> None:
 
 
 def test_parts_that_contradict_each_other() -> None:
-    """If a folder's number and name belong to different students, the program reports this as unclear."""
+    """If the number and the name of a folder fit different students, the folder is reported as unclear."""
     found = _matched({"doejane_18": ["doejane_18_99_05.ipynb"]})
     assert "different rows of the roster (lines 2 and 3)" in found.unclear["doejane_18"]
     assert found.people["doejane_18"] == Person("doejane", "18")
@@ -78,7 +78,7 @@ def test_a_number_of_moodle_is_no_id() -> None:
 
 
 def test_a_roster_with_the_numbers_of_moodle() -> None:
-    """Of two students with the same name, Moodle's number in the roster selects one."""
+    """If two students have the same name, Moodle's number in the roster selects one of the students."""
     found = _matched({"Ann Lee_20": ["Ann Lee_20_assignsubmission_file_/05.ipynb"]})
     assert found.people["Ann Lee_20"].username == "alee2"
 

@@ -1,4 +1,4 @@
-"""SIGKILL at random moments of `course grade`, of its reports, and of `course review`."""
+"""Tests that kill `course grade` and `course review` with SIGKILL at random moments."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def _grade(folder: Path, out: Path, *words: str) -> float:
 
 
 def _reports(out: Path) -> dict[str, str]:
-    """Return a digest of each file of the reports; drafts that a killed run has left are not reports."""
+    """Return a digest of each report, without the temporary files of a killed run."""
     files = [
         path for path in out.rglob("*") if path.is_file() and path.relative_to(out).parts[0] not in TIMED
     ]
@@ -69,7 +69,7 @@ def _kill(process: subprocess.Popen[bytes], after: float) -> None:
 
 
 def _prepare(out: Path, whole: Path) -> None:
-    """Make a folder with the overrides, and with the secret of the folder `whole`.
+    """Make a folder with the file overrides.csv, and with a copy of the secret in the folder `whole`.
 
     With the same secret, the checks draw the same inputs, so their reports have the same text.
     """

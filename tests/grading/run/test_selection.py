@@ -39,7 +39,7 @@ def test_nothing_selects_everything() -> None:
 
 
 def test_a_chapter_and_files_without_a_chapter() -> None:
-    """With --chapters, the run also includes files whose chapter is unknown."""
+    """With --chapters, the run also includes the files of an unknown chapter."""
     assert ("A Two_19", "") in _chosen(selection((), ("05",), ()))
     assert ("s01", "06") not in _chosen(selection((), ("05",), ()))
 
@@ -156,7 +156,7 @@ def test_another_assignment_in_the_same_folder(tmp_path: Path) -> None:
 def test_kept_grades_belong_to_no_student(tmp_path: Path) -> None:
     """A newly graded part replaces the stored part.
 
-    The run removes a stored grade of the same notebook with other options.
+    If a stored grade of the same notebook belongs to other options, the run removes this grade.
     """
     submission = SUBMISSIONS[0]
     store = Store(tmp_path)

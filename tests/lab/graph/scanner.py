@@ -1,4 +1,4 @@
-"""Finds the master, node, service and socket with the name NAME in the current network; prints them.
+"""Finds and prints the master, node, service and socket with the name NAME in the current network.
 
 usage: python3 scanner.py NAME [SOCKET …]
 
@@ -67,7 +67,7 @@ def accepts(name: str) -> bool:
 
 
 def asked(name: str, port: int) -> list[str]:
-    """Return the roles ("master", "node", "service") in which a port answers requests for a name."""
+    """Return which requests for a name the port answers: "master", "node" or "service"."""
     answers = {
         "master": f"/{name}".encode() in call(port, "getSystemState"),
         "node": f"/{name}".encode() in call(port, "getName"),

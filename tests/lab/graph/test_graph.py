@@ -90,7 +90,7 @@ def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
 def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
     """If the process that keeps a graph's network is killed with SIGKILL, the master of the graph ends.
 
-    The next command removes the socket file of the killed process when it starts or ends.
+    When the next command starts or ends, it removes the socket file of the killed process.
     """
     processes = of_graphs(tmp_path)
     os.kill(processes[0], signal.SIGKILL)
@@ -105,11 +105,11 @@ def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
 
 
 def test_without_namespaces_the_graph_is_in_the_machines_network(tmp_path: Path) -> None:
-    """If the machine forbids namespaces, the master uses a free port of the machine; a note says why."""
+    """If namespaces are forbidden, the master uses a free port of the machine, and a note says this."""
     with pytest.MonkeyPatch.context() as patch:
         (tmp_path / "rosmaster").write_text('#!/bin/sh\nexec /usr/bin/rosmaster "$@"\n')
         (tmp_path / "rosmaster").chmod(0o755)
-        patch.setenv("PATH", str(tmp_path))  # There is no program nsenter.
+        patch.setenv("PATH", str(tmp_path))  # This folder contains no program nsenter.
         graph = join_or_start(Which.RUNNING, tmp_path)
     assert "nsenter" in graph.reason
     assert graph.files == []

@@ -67,9 +67,9 @@ def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
 
 
 def _shell_below(process: int) -> int | None:
-    """Return the process id of the terminal's shell, or None while it runs commands of its start file.
+    """Return the process id of the terminal's shell, or None while the shell runs its start file.
 
-    These commands may run in a copy of the shell, which has the same command line.
+    A command of the start file can run in a copy of the shell, which has the same command line.
     """
     shells = having(b"bash\0--rcfile\0", below(process))
     return shells[0] if len(shells) == 1 else None
@@ -106,7 +106,8 @@ def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
 def killed(victim: bytes, state: Path) -> list[int]:
     """Start `course run`, kill one of its processes, and return the processes that still run.
 
-    `victim` is a text in the command line of this process. If the text is empty, kill `course run` itself.
+    `victim` is a text in the command line of the killed process. If the text is empty, kill `course run`
+    itself.
     """
     with running("run", "sleep", "1000", XDG_STATE_HOME=str(state)) as process:
         eventually(lambda: "sleep" in names(below(process)), timeout=60)

@@ -56,7 +56,7 @@ def inside(files: list[int], *command: str) -> subprocess.CompletedProcess[str]:
 def test_no_port_and_no_abstract_socket_is_visible_outside(files: list[int]) -> None:
     """A process outside the network cannot find or reach the network's sockets.
 
-    The outside process finds none of the network's sockets in /proc/net, and cannot connect to their ports.
+    The outside process does not see the network's sockets in /proc/net, and cannot connect to these sockets.
     """
     command = [*network.entering(files), sys.executable, "-c", LISTEN]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:

@@ -45,7 +45,7 @@ def scan(*command: str, name: str, sockets: list[str] = []) -> list[str]:  # noq
 
 
 def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
-    """Return the names of the sockets on which the given processes listen and which /proc/net shows.
+    """Return the names of the given processes' listening sockets that are visible in /proc/net.
 
     A name is the address of a TCP or UDP socket, or the path of a Unix socket. The addresses have the format
     of /proc/net.

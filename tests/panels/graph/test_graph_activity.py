@@ -178,7 +178,7 @@ def test_callers_are_listed_and_ended_callers_are_marked() -> None:
 
 
 def test_a_killed_caller_is_gone() -> None:
-    """The panel marks a caller whose process was killed as gone."""
+    """If the process of a caller was killed, the panel marks this caller as gone."""
     wall = Wall(graph(dead="/client"))
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert [each["gone"] for each in wall.now["callers"]["service /robot/ask"]] == [True, True]
@@ -312,7 +312,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The result has as few digits as possible, and differs from the rate by at most the uncertainty."""
+    """plainest() rounds a rate to as few digits as its uncertainty allows."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 

@@ -60,7 +60,7 @@ def names(shown: Picture) -> set[str]:
 
 
 def test_a_namespace_has_two_or_more_shapes() -> None:
-    """A common prefix is a namespace only if the names of at least two nodes, topics or services have it."""
+    """A prefix is a namespace only if the names of at least two nodes, topics or services begin with it."""
     assert set(namespaces(picture(TURTLE))) == {"/turtle1/"}
     lonely = graph(("/a", "/far/away/one", "/b"), ("/a", "/far/away/two", "/b"), ("/a", "/x/y", "/b"))
     assert set(namespaces(picture(lonely))) == {"/far/away/"}

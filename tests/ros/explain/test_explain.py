@@ -1,4 +1,4 @@
-"""The course explains each known error."""
+"""Tests of explain(), which explains errors of ROS and of the course."""
 
 from __future__ import annotations
 
@@ -113,14 +113,14 @@ def test_errors_of_the_course_are_explained() -> None:
 
 
 class Unshowable(Exception):
-    """An exception whose __str__ raises an error."""
+    """An exception that raises an error in __str__."""
 
     def __str__(self) -> str:
         raise ValueError("no words")
 
 
 def ring() -> Exception:
-    """Return an exception whose chain of causes is an endless loop."""
+    """Return an exception that is the cause of its own cause."""
     one, other = KeyError("one"), KeyError("other")
     one.__cause__, other.__cause__ = other, one
     return one

@@ -20,7 +20,7 @@ JOIN = "from course_pkg.ros import join\nnode = join('student')"
 
 
 def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
-    """If join() is called again, it returns the same node."""
+    """A second call of join() returns the same node."""
     kernel.run(JOIN)
     assert kernel.run("result = join('student') is node, node.name, repr(node)") == [
         True,

@@ -1,4 +1,4 @@
-"""Tests of calls that would never end in plain rospy; with the course's proxy, they end at a time limit."""
+"""Tests of calls that would never end in plain rospy, but end at a time limit with the course's proxy."""
 
 from __future__ import annotations
 
@@ -218,7 +218,7 @@ def switching_often() -> Iterator[None]:
 
 
 def watching() -> list[threading.Thread]:
-    """Return all threads of this process that belong to a watchdog."""
+    """Return all threads of watchdogs; a watchdog runs actions at their deadlines."""
     return [thread for thread in threading.enumerate() if thread.name == "call-watchdog"]
 
 

@@ -187,7 +187,7 @@ def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
 
 
 def test_new_thread_with_the_identifier_of_an_ended_thread() -> None:
-    """A new thread belongs to the run, even if the thread has the identifier of an ended thread."""
+    """A new thread belongs to the run of the cell, even if an ended thread had the same identifier."""
     owned: list[bool] = []
 
     def new_thread(run: CellRun) -> int:

@@ -1,4 +1,4 @@
-"""Every started process ends when the process that started it ends."""
+"""Tests that child processes end when their parent process ends."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ while True:
 
 
 def test_node_that_ignores_signals_on_a_shared_master(master: PrivateMaster) -> None:
-    """After a kernel was killed, its nodes are killed and unregistered, even if they ignore SIGTERM."""
+    """After a kernel was killed, its nodes are killed and unregistered, even if the nodes ignore SIGTERM."""
     kernel = Kernel()
     kernel.run(f"""
 import sys

@@ -119,7 +119,7 @@ def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
 
 
 def test_registrations(master: PrivateMaster) -> None:
-    """A client can look up a registration, but can remove it only with the registered address."""
+    """A client can look up a registration, but needs the registered address to remove the registration."""
     client = MasterClient(master.uri)
     client.register_service("/node", "/service", "rosrpc://localhost:5", "http://localhost:4/")
     client.register_publisher("/node", "/topic", "std_msgs/UInt32", "http://localhost:4/")

@@ -59,7 +59,7 @@ def test_what_a_node_logs_is_in_the_log_of_rosout(core: Roscore, tmp_path: Path)
 def test_it_listens_on_loopback_only(core: Roscore) -> None:
     """/rosout listens only on 127.0.0.1.
 
-    For this, a library that is built from loopback.c replaces bind() of roscpp's XML-RPC server.
+    The library that is built from loopback.c replaces bind() in roscpp's XML-RPC server.
     """
     with core:
         [rosout] = processes(descendants(os.getpid()))

@@ -26,7 +26,7 @@ class Notes:
         self.looks += 1
 
     def reader(self) -> BulkReader:
-        """Return a bulk reader whose callbacks are methods of this object."""
+        """Return a bulk reader that has methods of this object as callbacks."""
         return BulkReader(["std_msgs/UInt32"], self.hear, self.missed.append, self.look)
 
 

@@ -52,7 +52,7 @@ class Reports:
 
 @pytest.fixture
 def reports(master: PrivateMaster) -> Iterator[Reports]:
-    """Start a topic process for the topic /speed, and wait until it has found the graph."""
+    """Start a topic process for the topic /speed, and wait until the process has found the graph."""
     assert master.uri
     reports = Reports()
     eventually(lambda: reports.parts.get("connections"), timeout=20)
@@ -107,7 +107,7 @@ def test_a_curve_keeps_extreme_values() -> None:
 
 
 def test_a_curve_counts_invalid_numbers() -> None:
-    """The curve counts NaN and infinity, but does not store them."""
+    """The curve counts NaN and infinity, but does not store these values."""
     curve = DownsampledSeries()
     for value in (1.0, float("nan"), float("inf")):
         curve.add(0.0, value)
@@ -126,7 +126,7 @@ def test_a_timer_ticks_until_it_is_stopped() -> None:
 
 
 def test_a_timer_skips_late_ticks() -> None:
-    """If a call takes too long, the timer skips the calls that it has missed, and counts them."""
+    """If a call takes too long, the timer skips and counts the missed calls."""
     held = threading.Event()
     ticks: list[int] = []
 

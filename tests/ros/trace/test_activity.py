@@ -71,7 +71,7 @@ def pair(master: PrivateMaster) -> Iterator[tuple[Kernel, Kernel]]:
 
 
 def counted(wanted: Callable[[Traffic], bool]) -> int | None:
-    """Return the number of messages on the connection that `wanted` selects, or None if it selects none."""
+    """Return the number of messages on the connection that `wanted` selects, or None if there is none."""
     found = [each.messages for each in ActivityPoller().poll(look()).traffic if wanted(each)]
     assert len(found) <= 1
     return found[0] if found else None
@@ -172,7 +172,7 @@ def test_an_empty_graph() -> None:
     ],
 )
 def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
-    """If a node's response has an unknown format, the poller ignores the data that it cannot read."""
+    """If a node's response has an unknown format, the poller ignores the unknown data."""
     server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
     server.register_function(lambda _: answer, "getBusStats")
     server.register_function(lambda _: [1, "", [[1, "/listener", "o", "TCPROS", "/words"]]], "getBusInfo")

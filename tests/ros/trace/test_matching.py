@@ -1,4 +1,4 @@
-"""Tests of match_events(), which combines the spans of several nodes into calls and messages."""
+"""Tests of match_events(), which makes calls and messages from spans (recorded periods) of several nodes."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def span(
     note: str = "",
     thread: tuple[str, int] = ("MainThread", 1),
 ) -> SpanData:
-    """Return a span in the format in which a process records it."""
+    """Return a span as a process records it."""
     return {
         "kind": kind,
         "name": name,
@@ -81,7 +81,7 @@ def test_another_service_on_the_same_ports() -> None:
 
 
 def test_a_port_that_was_used_again() -> None:
-    """If two calls have the same ports and call number, a handler is not assigned to either of them."""
+    """If two calls have the same ports and call number, a handler is not assigned to any call."""
     twice = events([*call(1, 1, 3), *call(2, 11, 13)], [span("handler", 2, 2.5), span("handler", 12, 12.5)])
     assert [key for kind, key in keys(twice) if kind == "handler"] == ["call 2", "call 4"]
     assert [key for kind, key in keys(twice) if kind == "request"] == ["call 1", "call 3"]

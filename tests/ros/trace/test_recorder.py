@@ -1,4 +1,4 @@
-"""Tests of the spans and the callers that a process records."""
+"""Tests of the spans (periods with a start and an end) and the callers that a process records."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from course_pkg.ros.trace.recorder import LONGEST, Recorder
 
 
 def test_the_number_of_stored_spans_is_bounded() -> None:
-    """The recorder stores only the latest finished spans, but every span that still runs."""
+    """The recorder stores the latest finished spans, and all spans that have not ended."""
     recorder = Recorder(size=3)
     lasting = recorder.begin("handler", "/x", "/caller", [])
     spans = [recorder.begin("publish", f"/{number}", "", []) for number in range(5)]

@@ -195,7 +195,7 @@ def test_unfinished_events_are_open(asker: Kernel) -> None:
 
 
 def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
-    """When a client process exits, it sends its events to the recording."""
+    """A client process that exits sends its events to the recording."""
     recording = recorded(
         asker,
         """
@@ -216,7 +216,7 @@ def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
 
 
 def test_a_kernel_that_leaves_during_the_recording(asker: Kernel) -> None:
-    """When the kernel of another notebook calls leave(), it sends its node's events to the recording."""
+    """If the kernel of another notebook calls leave(), this kernel sends its events to the recording."""
     with Kernel() as other:
         other.run("from std_srvs.srv import Trigger; from course_pkg.ros import join; node = join('other')")
         asker.run("""
@@ -242,7 +242,8 @@ def test_a_server_that_died(asker: Kernel) -> None:
             called("/dying", Trigger)
     """,
     )
-    # The recorded error depends on the order in which the sockets close, so the test does not check its text.
+    # The recorded error depends on the order in which the sockets close, so the test does not check the
+    # message.
     assert [*recording.unrecorded] == ["/dying_server"]
     assert kinds(recording, "call 1") == ["lookup", "connect", "request", "wait", "error"]
 
