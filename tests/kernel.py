@@ -1,4 +1,4 @@
-"""A Python process that runs code cells, as the kernel of a notebook does."""
+"""Runs code cells in a Python process, as the kernel of a notebook does."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A real IPython kernel that receives the id of each cell, like the kernel of JupyterLab."""
+"""Runs a real IPython kernel that receives the id of each cell, as in JupyterLab."""
 
 from __future__ import annotations
 

@@ -42,7 +42,8 @@ c.Spawner.default_url = "/lab"
 c.Spawner.start_timeout = 300
 c.Spawner.http_timeout = 300
 
-# The class view: only the teacher can open its page, and the students' servers send the results of checks.
+# Only the teacher can open the page of the class view. The students' servers send the results of checks to
+# the class view.
 if settings.class_port:
     c.JupyterHub.services = [
         {

@@ -1,4 +1,4 @@
-"""Small notebooks for the tests of the authoring tools."""
+"""Makes small notebooks for the tests of the authoring tools."""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
 
 
 def test_a_check_without_a_report_has_not_passed() -> None:
-    """A check passed only if the cell's output is a report of this check; printed text is not a report."""
+    """A check has passed only if the cell's output is the report of this check, and not printed text."""
     passed = {"output_type": "execute_result", "data": {"text/plain": "05.1 passed: 2 of 2 points"}}
     printed = {"output_type": "stream", "name": "stdout", "text": "05.1 passed"}
     assert not_passed(book(_checked(passed), _checked(printed, passed), code("1"))) == {}

@@ -1,4 +1,4 @@
-"""A real JupyterLab with its own ROS master, and functions that use JupyterLab as a student does."""
+"""Runs a real JupyterLab with a ROS master, and uses JupyterLab as a student does."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @contextmanager
 def program(cells: str, state: Path, **env: str) -> Iterator[subprocess.Popen[str]]:
-    """Run the source of notebook cells as a program that has joined the graph as the node `student`."""
+    """Run the source of notebook cells in a program that has called join() with the name `student`."""
     setup = """
     import sys
     import threading

@@ -1,4 +1,4 @@
-"""A report has the same content as text and as HTML."""
+"""Tests that the text and the HTML of a report have the same content."""
 
 from __future__ import annotations
 

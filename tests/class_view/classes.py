@@ -67,7 +67,7 @@ def enter(url: str, token: str = TEACHER) -> str:
 
 
 def changes(url: str, cookie: str, epoch: str = "", since: int = -1) -> dict[str, object]:
-    """Return the changes after a version of the page, as the page receives them."""
+    """Return the changes since a version of the page, in the format that the page receives."""
     status, text, _ = ask(f"{url}/changes?epoch={epoch}&since={since}", Cookie=cookie)
     assert status == 200, text
     found = json.loads(text)

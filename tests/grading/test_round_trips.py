@@ -304,7 +304,7 @@ def test_an_id_that_is_no_number(tmp_path: Path) -> None:
 
 
 def test_a_roster_can_do_no_harm(tmp_path: Path) -> None:
-    """The files show markup, formulas and control characters from a roster as text."""
+    """Markup, formulas and control characters from a roster have no effect in the files."""
     cells = ["<script>alert(1)</script>", "=cmd()", "\x1b[31mred\u202e", "@sum"]
     path = tmp_path / "roster.csv"
     with path.open("w", newline="") as file:

@@ -1,4 +1,4 @@
-"""The workflow for GitHub Classroom is valid; these tests do not run the workflow."""
+"""Tests that the workflow for GitHub Classroom is valid; the tests do not run the workflow."""
 
 from __future__ import annotations
 

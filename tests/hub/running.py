@@ -1,4 +1,4 @@
-"""A hub that runs as the current user, for tests and measurements."""
+"""Runs a hub as the current user, for tests and measurements."""
 
 from __future__ import annotations
 

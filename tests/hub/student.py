@@ -1,4 +1,4 @@
-"""A student who uses the hub through its HTTP and WebSocket interface, as a browser does."""
+"""Imitates a student's browser, which uses the HTTP and WebSocket interface of the hub."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TIMEOUT = 300.0  # The time limit in s.
 
 
 class Student:
-    """A student's browser session: it logs in, starts the student's server and a kernel, and runs cells."""
+    """Logs a student in, starts the student's server and a kernel, and runs cells."""
 
     def __init__(self, hub: str, name: str, certificate: Path | None = None) -> None:
         self.hub, self.name = hub, name

@@ -74,7 +74,7 @@ def test_a_full_disk_is_named_on_the_students_page(address: str, folder: Path) -
 
 
 def test_a_missing_home_is_reported_for_this_student_only() -> None:
-    """The program reports an account without a home folder, such as `nobody` on Debian, as a problem.
+    """If an account has no home folder, such as `nobody` on Debian, the program reports a problem.
 
     The account that runs this test has a home folder, so the program does not report this account.
     """

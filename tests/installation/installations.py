@@ -1,4 +1,4 @@
-"""Makes small installations of the course for tests; they use the Python environment of the checkout."""
+"""Makes small installations of the course for tests, with the Python environment of the checkout."""
 
 from __future__ import annotations
 

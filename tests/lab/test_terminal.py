@@ -100,7 +100,7 @@ def test_a_terminal_starts_where_the_chapters_and_the_workspace_are(terminal: Te
 
 
 def test_the_graph_is_the_same_as_with_roscore(terminal: Terminal) -> None:
-    """The nodes, services and parameters are the same as with `roscore`."""
+    """The nodes, services and parameters are the same as those of the command `roscore`."""
     assert terminal.run("rosnode list").split() == ["/rosout"]
     assert terminal.run("rosservice list").split() == ["/rosout/get_loggers", "/rosout/set_logger_level"]
     assert terminal.run("rosparam list").split() == ["/rosdistro", "/rosversion", "/run_id"]

@@ -39,7 +39,7 @@ def test_a_path_needs_no_chapter_outside_it(path: LearningPath) -> None:
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.name)
 def test_the_readme_has_the_path_with_its_time(path: LearningPath) -> None:
-    """README contains the same times for each path as the first page of the site."""
+    """For each learning path, README and the first page of the site contain the same times."""
     row = next(line for line in README.splitlines() if line.startswith(f"| {path.name} |"))
     assert [choice.hours for choice in path.choices if choice.hours not in row] == []
     assert path.afterwards in row

@@ -193,7 +193,7 @@ class Tags(HTMLParser):
         assert self.open == []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Record a tag as open."""
+        """Add a tag to the list of open tags."""
         self.found.append((tag, dict(attrs)))
         if tag != "meta":
             self.open.append(tag)

@@ -157,7 +157,7 @@ def test_a_second_call_waits_for_the_first(harness: Harness) -> None:
 
 
 def test_cancel_ends_the_call(harness: Harness) -> None:
-    """The panel shows a cancelled call as cancelled."""
+    """If a call is cancelled, the panel shows that the call was cancelled."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     eventually(lambda: harness.caller.requests)

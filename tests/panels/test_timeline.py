@@ -41,7 +41,7 @@ def message(number: int, at: float, *hearers: str) -> list[Event]:
 
 
 def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | dict[str, str]) -> Recording:
-    """Return a recording with the given events; its length is in s."""
+    """Return a recording with the given events and the given length in s."""
     ordered = tuple(sorted(events, key=lambda event: event.start))
     return Recording(
         events=ordered, nodes=tuple(sorted({event.node for event in events})), length=length, **more

@@ -8,7 +8,7 @@ from course_pkg.setup.libraries import UV_SETTINGS, as_uv_variables
 
 
 def test_the_mirror_in_pips_settings_is_used(tmp_path: Path) -> None:
-    """The set-up passes pip's settings for indexes, find-links and certificates to uv as variables."""
+    """The set-up converts pip's settings for indexes, find-links and certificates to variables for uv."""
     settings = {
         "index-url": ["https://mirror.example/simple"],
         "extra-index-url": ["https://a.example/simple", "https://b.example/simple"],

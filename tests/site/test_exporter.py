@@ -15,7 +15,7 @@ from tests.site.notebook_stores import result, shown
 
 
 def test_a_result_is_shown() -> None:
-    """The page shows a result with only plain text as escaped text."""
+    """If a result contains only plain text, the page shows this text with escaped HTML characters."""
     assert "&lt;Box&gt; &amp; 3" in shown(result(text_plain="<Box> & 3")).html
 
 
@@ -55,7 +55,10 @@ def test_a_figure_is_described_by_its_own_text() -> None:
 
 
 def test_a_picture_of_a_panel_is_shown_if_there_is_no_state() -> None:
-    """The page shows a panel without a state as its picture, or as text if there is no picture."""
+    """If a panel has no state, the page shows its picture.
+
+    Without a picture, the page shows the panel's text.
+    """
     drawing = '<svg width="1"><title>The ROS graph: 2 &lt; 3 nodes</title><text>/a</text></svg>'
     data = {"image/svg+xml": drawing, "text/plain": "GraphPanel()"}
     body = shown(result() | {"data": data}).html

@@ -146,7 +146,7 @@ def test_a_panel_is_kept_without_its_script() -> None:
 
 
 def test_a_widget_of_another_library_is_shown_as_text() -> None:
-    """The page shows a widget of another library as text."""
+    """For a widget of another library, the page shows the text of the widget."""
     for kind in ("elsewhere.Widget", "course_pkg.panels.graph.view.GraphPanel2.x", "", f"{GRAPH}\n"):
         notebook = saved(kind)
         embed_states(notebook)
@@ -154,7 +154,7 @@ def test_a_widget_of_another_library_is_shown_as_text() -> None:
 
 
 def test_a_view_without_a_state_is_shown_as_text() -> None:
-    """The page shows a widget without a saved state as text."""
+    """If a widget has no saved state, the page shows the text of the widget."""
     notebook = saved(GRAPH)
     notebook["metadata"] = {}
     embed_states(notebook)

@@ -39,7 +39,7 @@ def test_md5_and_text_are_those_of_the_build(name: str) -> None:
 
 
 def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
-    """A type from text that has fields of every kind has the same MD5 sum and encoding as the built type."""
+    """A type with fields of every kind has the same MD5 sum and encoding if it is made from text."""
     assert packages.is_dir()
     built, again = service_type("odd_pkg/Everything"), compile_service("odd_pkg/Everything", EVERYTHING)
     assert again == built

@@ -1,4 +1,4 @@
-"""A small package that can be built, and changes that make its build fail."""
+"""Makes a small package that can be built, or a package with a mistake that makes the build fail."""
 
 from __future__ import annotations
 

@@ -259,7 +259,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
     assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
 
 
-# The error messages of GCC 12 for a lambda function as a handler: without and with a type in < >.
+# GCC 12 prints these error messages if a handler is a lambda function, without and with a type in < >.
 LAMBDAS = [
     "no matching function for call to 'ros::NodeHandle::advertiseService(const char [4], main(int, char**)::"
     "<lambda(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)>)'",

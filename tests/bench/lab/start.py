@@ -187,7 +187,7 @@ def started(command: Sequence[str | Path], env: Mapping[str, str], cwd: Path | N
 
 @contextmanager
 def stock(notebook: Path, state: Path) -> Iterator[str]:
-    """Run the unchanged JupyterLab, and keep its settings in a folder; yield the address of the notebook."""
+    """Run the unchanged JupyterLab with its settings in a folder; yield the address of the notebook."""
     port = free_port()
     command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", f"--port={port}"]
     command += [f"--ServerApp.root_dir={ROOT}", "--IdentityProvider.token=t"]

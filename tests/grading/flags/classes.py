@@ -1,4 +1,4 @@
-"""Small classes of students for the tests of flags."""
+"""Makes small classes of students for the tests of flags."""
 
 from __future__ import annotations
 

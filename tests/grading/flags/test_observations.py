@@ -111,7 +111,7 @@ def test_the_solutions_have_no_flags() -> None:
 
 def test_right_example_answers() -> None:
     """Of all right example answers, only the answer with the command `rosservice find` gets a flag."""
-    # The keys are pairs of a chapter and a student's number; the values are the student's answers by part.
+    # Each key is a chapter and the number of a student. Each value maps parts to this student's answers.
     students: dict[tuple[str, int], dict[str, str]] = {}
     for answer in every_answer():
         if answer.right:

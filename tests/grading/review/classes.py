@@ -1,4 +1,4 @@
-"""A class with results of `course grade`, and a running `course review` for these results."""
+"""Makes the results of `course grade` for a class, and runs `course review` for these results."""
 
 from __future__ import annotations
 

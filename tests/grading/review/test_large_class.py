@@ -1,4 +1,4 @@
-"""`course grade` after the review of a large class."""
+"""Tests of `course grade` after the review of a large class."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def test_points_before_and_after() -> None:
 
 
 def test_parts_that_only_one_run_has() -> None:
-    """The output reports an added or removed part as a change."""
+    """If a part was added or removed, the output contains this change."""
     shorter = replace(FULL, reports=FULL.reports[:1])
     assert list(map(str, changes([shorter], [FULL]))) == ["s01, 05.2: none before, 2 now"]
     assert list(map(str, changes([FULL], [shorter]))) == ["s01, 05.2: 2 before, none now"]
@@ -44,7 +44,7 @@ def test_lateness_alone() -> None:
 
 
 def test_a_new_student_is_no_change() -> None:
-    """A submission without an earlier result is not reported as a change."""
+    """If a submission has no earlier result, the output does not contain a change."""
     assert changes([FULL], [replace(LESS, student="s02")]) == []
 
 

@@ -1,4 +1,4 @@
-"""Other users and other labs can reach only the page of a running `course lab`."""
+"""Tests that other users and other labs can reach only the page of a running `course lab`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An IPython kernel that runs a node."""
+"""A fixture with an IPython kernel that runs a node."""
 
 from __future__ import annotations
 

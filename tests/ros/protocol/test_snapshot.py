@@ -51,7 +51,7 @@ def test_equal_snapshots_of_the_same_graph(server: NodeProcess) -> None:
 
 
 def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> None:
-    """A snapshot lists a node that is suspended with SIGSTOP as silent.
+    """If a node is suspended with SIGSTOP, a snapshot lists this node as silent.
 
     remove_stale() does not remove the registrations of a suspended node.
     """

@@ -90,7 +90,7 @@ def test_messages_are_counted_by_connection(pair: tuple[Kernel, Kernel]) -> None
 
 
 def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
-    """A poll does not list a publisher without subscribers as silent."""
+    """If a publisher has no subscribers, a poll does not list the publisher as silent."""
     kernel.run(SPEAK + "\nfor number in range(3): speaker.publish('x')")
     seen = ActivityPoller().poll(look())
     assert [each for each in seen.traffic if each.topic == "/words"] == []
@@ -106,7 +106,7 @@ def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) ->
 
 
 def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
-    """A poll lists a node that is suspended with SIGSTOP as silent."""
+    """If a node is suspended with SIGSTOP, a poll lists this node as silent."""
     speaker, listener = pair
     snapshot = look()
     with stopped(speaker.pid):

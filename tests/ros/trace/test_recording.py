@@ -249,7 +249,7 @@ def test_a_server_that_died(asker: Kernel) -> None:
 
 
 def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
-    """A recording lists a node that is suspended with SIGSTOP as unrecorded, after only a short delay."""
+    """If a node is suspended with SIGSTOP, the recording soon lists this node as unrecorded."""
     reply = asker.ask("""
         import os, signal
         server = node.run("course_pkg", "pulse")
@@ -267,7 +267,7 @@ def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
 
 
 def test_a_node_without_the_course(asker: Kernel, master: PrivateMaster) -> None:
-    """A recording lists a node without prepare_node() as unrecorded."""
+    """If a node has not called prepare_node(), the recording lists this node as unrecorded."""
     with plain_node(master):
         recording = recorded(asker, "with node.record() as recording:\n    node.call('/plain', Trigger)")
     assert "keeps no record" in recording.unrecorded["/plain"]
