@@ -169,10 +169,9 @@ def fuzz_main() -> None:
 
 
 # faults: measures the time to cause and undo each fault of BreakIt, and checks whether the graph is restored.
-# usage: nodes.py faults [ROUNDS] [FAULT …]
-# For each fault, the benchmark prints the median and the maximum duration (s), and how often a node, topic,
-# service, process, listening port or environment variable remained. The benchmark also measures the start and
-# the end of a plain node, because a fault that starts a server cannot be faster.
+# usage: nodes.py faults [ROUNDS] [FAULT …] For each fault, the benchmark prints the median and the maximum
+# duration (s), and how often a node, topic, service, process, listening port or environment variable
+# remained. For comparison, the benchmark also measures the start and the end of a plain node.
 
 BOUND = 3.0  # The benchmark counts the rounds that take longer than this time in s.
 BARE = """

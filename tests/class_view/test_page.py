@@ -73,7 +73,7 @@ def test_the_page_follows_the_class(browser: Browser, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("colours", usual(1, {"light": "light", "dark": "dark"}))
 def test_the_page_is_accessible_and_fits(browser: Browser, tmp_path: Path, colours: Colours) -> None:
-    """axe-core finds no problem, no script in a result runs, and the page fits into the window.
+    """axe-core finds no problem, the page fits into the window, and scripts in a result do not run.
 
     The test opens the page before any result was sent, and after a class has sent results.
     """

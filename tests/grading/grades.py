@@ -101,7 +101,7 @@ def refused(
     chapter: str = "05",
     problem: str = "05_write_a_server.ipynb was not graded: the file is empty.",
 ) -> Grade:
-    """Return the grade of a submission that could not be graded."""
+    """Return the grade of an unusable submission."""
     checks = [check for check in GOALS if chapter and check.startswith(chapter)]
     reports = tuple(report(check, Verdict.UNDECIDED, note=problem) for check in checks)
     return Grade(student, chapter, reports, problem=problem, origin="x")

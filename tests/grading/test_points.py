@@ -100,7 +100,7 @@ def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
     ],
 )
 def test_a_wrong_file_is_explained(tmp_path: Path, text: str, message: str) -> None:
-    """If points.json is wrong, the error message contains the file, the position and what to do."""
+    """If points.json is wrong, the error message contains the file, the position and advice."""
     with pytest.raises(GradingError, match=message) as raised:
         read_points(_read(tmp_path, text))
     assert str(tmp_path / "points.json") in str(raised.value)

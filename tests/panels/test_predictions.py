@@ -243,7 +243,7 @@ def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store:
 def test_a_mistake_of_the_author_raises_an_error(
     cases: list[tuple[str, str, str]], stretch: str, choice_store: ChoiceStore
 ) -> None:
-    """If a case has an unknown answer, is given twice, or has no reason, NotAChoice is raised."""
+    """ChoicesModel raises NotAChoice if a case has an unknown answer or no reason, or occurs twice."""
     with pytest.raises(NotAChoice, match=stretch):
         ChoicesModel("03.cases", "?", OPTIONS, cases, choice_store)
 

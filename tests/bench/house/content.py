@@ -52,7 +52,7 @@ def objects_main() -> bool:
 
 
 def names_main() -> bool:
-    """Print the names that code cells import from course_pkg; service and message types do not count.
+    """Print the names that code cells import from course_pkg, except service and message types.
 
     Return whether there are too many names.
     """

@@ -89,7 +89,7 @@ def started_with(folder: str) -> list[int]:
     """Return all processes of this computer that have the given folder as TMPDIR in their environment.
 
     Linux deletes a private network when no process uses it. Therefore, an empty list means that the private
-    network of the command does not exist.
+    network of the command no longer exists.
     """
     found = []
     for process in Path("/proc").glob("[0-9]*"):

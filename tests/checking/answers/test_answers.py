@@ -29,8 +29,8 @@ ANSWERS = sorted(every_answer(), key=lambda answer: -PARTS[answer.check].deadlin
 RIGHT = {answer.check: answer for answer in reversed(ANSWERS) if answer.right}
 pytestmark = pytest.mark.timeout(900)  # time limit in s for a test that waits in the queue
 
-# A usual run contains this number of right answers (key True) and of wrong answers (key False) to each part;
-# all other answers are slow tests. The first right answer is not included, because it is the solution, which
+# A usual run contains the second right answer (key True) and the first wrong answer (key False) to each part.
+# All other answers are slow tests. The first right answer is not included, because it is the solution, which
 # test_validation.py checks.
 USUAL = {True: (2,), False: (1,)}
 # These parts build or start programs.

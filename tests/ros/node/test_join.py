@@ -84,7 +84,7 @@ def test_silent_program_at_the_uri() -> None:
 
 
 def test_another_program_at_the_uri(tmp_path: Path) -> None:
-    """If a web server is at the address, the error of join() says that no master is at this address."""
+    """If a web server is at the address ROS_MASTER_URI, join() raises NotAMaster."""
     command = [sys.executable, "-u", "-m", "http.server", "-b", "127.0.0.1", "0"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=tmp_path) as web:
         assert web.stdout is not None

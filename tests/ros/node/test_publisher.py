@@ -96,7 +96,7 @@ def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: Private
 
 
 def test_counts_are_kept_after_the_subscriber_has_ended(joined: Kernel) -> None:
-    """The messages of a subscriber that has ended are still counted."""
+    """The counts include the messages to a subscriber that has ended."""
     assert joined.run("""
         from tests.support import eventually
         spoken = Publisher("/numbers", UInt32)
