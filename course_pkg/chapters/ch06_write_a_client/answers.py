@@ -50,6 +50,10 @@ def measure(service, length, width, height):
 
 # %% 06.1 wrong: rounds area and volume | hint: Return the area and the volume of
 replace("response.area, response.volume", "round(response.area), round(response.volume)")
+# %% 06.1 wrong: rounds to three decimals | hint: Return the area and the volume of
+replace("response.area, response.volume", "round(response.area, 3), round(response.volume, 3)")
+# %% 06.1 wrong: sends the sides in whole millimetres | hint: without rounding them
+replace("(length, width, height)\n    return", "(*[round(side, 3) for side in (length, width, height)])\n    return")
 # %% 06.1 wrong: returns only the volume | hint: Return the area and the volume, with a comma
 based_on("returns the whole response")
 replace("(length, width, height)", "(length, width, height).volume")
@@ -89,6 +93,8 @@ replace("timeout=seconds", "timeout=seconds if seconds > 2 else seconds / 2")
 # %% 06.2 wrong: calls the service, but only from the fifth time on | hint: but do not call the service
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)")
 replace("timeout=seconds)", "timeout=seconds)\n        if len(calls) > 5:\n            rospy.ServiceProxy(service, geometry)(1, 1, 1)")
+# %% 06.2 wrong: stores the results | hint: the service started, but the result did not
+replace("def is_there", "import functools\n\n\n@functools.lru_cache(maxsize=None)\ndef is_there")
 # %% 06.2 wrong: waits without a limit | hint: The function waited longer than the time
 replace("service, timeout=seconds", "service")
 # %% 06.2 wrong: catches rospy.ServiceException | hint: Catch this exception.
@@ -195,6 +201,23 @@ def volume_or_none(service, length, width, height):
 # %% 06.3 wrong: also catches errors from numbers that are too large | hint: The function catches the exception that a wrong argument causes
 replace("volume\n    except rospy.ServiceException:", """volume
     except (rospy.ServiceException, ArithmeticError, LookupError, TypeError, ValueError):""")
+# %% 06.3 wrong: stores the results | hint: it returned the volume of the first response
+stored = {}
+
+
+def volume_or_none(service, *sides):
+    key = (service, *map(repr, sides))
+    if key not in stored:
+        try:
+            stored[key] = rospy.ServiceProxy(service, geometry)(*sides).volume
+        except rospy.ServiceException:
+            stored[key] = None
+    return stored[key]
+
+# %% 06.3 wrong: does not catch the error of a buggy handler | hint: In this case, too, the call raised
+replace("    except rospy.ServiceException:", '    except rospy.ServiceException as error:\n        if "error processing" in str(error):\n            raise')
+# %% 06.3 wrong: does not catch the error of another definition | hint: In this case, too, the call raised
+replace("    except rospy.ServiceException:", '    except rospy.ServiceException as error:\n        if "md5sums" in str(error):\n            raise')
 # %% 06.3 wrong: catches Exception | hint: The function catches the exception that a wrong argument causes
 replace("rospy.ServiceException", "Exception")
 # %% 06.3 wrong: catches rospy.ROSException | hint: not rospy.ROSException
@@ -320,7 +343,7 @@ def first_answer(services, length, width, height):
             pool.shutdown(wait=False)
     return None
 
-# %% 06.4 wrong: waits two seconds for each service | hint: The function waits too long for
+# %% 06.4 wrong: waits two seconds for each service | hint: The function waits too long for one service
 replace("timeout=1", "timeout=2")
 # %% 06.4 wrong: waits 0.4 s for each service | hint: The first service responds after 0.6
 replace("timeout=1", "timeout=0.4")
@@ -388,6 +411,36 @@ def first_answer(services, *sides):
 
 # %% 06.4 right: always waits one second for each service
 replace("asker.join(timeout=1)", "rospy.sleep(1)")
+# %% 06.4 wrong: waits 1.5 s for a missing service | hint: The function waits too long for a missing
+def first_answer(services, length, width, height):
+    def ask_one(proxy, answers):
+        try:
+            answers.append(proxy(length, width, height).volume)
+        except rospy.ServiceException:
+            pass
+
+    for service in services:
+        try:
+            rospy.wait_for_service(service, timeout=1.5)
+        except rospy.ROSException:
+            continue
+        answers = []
+        asker = threading.Thread(target=ask_one, args=[rospy.ServiceProxy(service, geometry), answers], daemon=True)
+        asker.start()
+        asker.join(timeout=1)
+        if answers:
+            return answers[0]
+    return None
+
+# %% 06.4 right: waits at most 1 s for a missing service
+based_on("waits 1.5 s for a missing service")
+replace("timeout=1.5", "timeout=1")
+# %% 06.4 wrong: uses a late response if no other service responds | hint: the function returned this late response
+based_on("waits 1.5 s for a missing service")
+replace("timeout=1.5", "timeout=1")
+replace("    for service in services", "    calls = []\n    for service in services")
+replace("answers = []\n        asker", "answers = []\n        calls.append(answers)\n        asker")
+replace("    return None", "    return next((answers[0] for answers in calls if answers), None)")
 # %% 06.4 wrong: sends other sides | hint: The request was repeated or
 replace("proxy(length, width, height)", "proxy(0, 0, 0)")
 # %% 06.4 wrong: calls only the first two services | hint: The last service can respond
@@ -429,6 +482,30 @@ replace("[1:]", '[1:] if text.replace(".", "", 1).isdigit()')
 # %% 06.5 wrong: accepts only digits | hint: 1.5 is a number, too
 based_on("does not catch ValueError")
 replace("[1:]", "[1:] if text.isdigit()")
+# %% 06.5 wrong: accepts only numbers with a point | hint: 25e-2 are numbers, too
+import re
+
+
+def read_sides(argv):
+    texts = rospy.myargv(argv)[1:]
+    if len(texts) != 3 or not all(re.fullmatch(r"-?\d+\.\d+", text) for text in texts):
+        return None
+    return [float(text) for text in texts]
+
+# %% 06.5 wrong: evaluates the arguments as Python literals | hint: Python evaluated an argument such as 5m
+import ast
+
+
+def read_sides(argv):
+    try:
+        sides = [float(ast.literal_eval(text)) for text in rospy.myargv(argv)[1:]]
+    except ValueError:
+        return None
+    return sides if len(sides) == 3 else None
+
+# %% 06.5 wrong: accepts True as a number | hint: The argument True is a word
+based_on("evaluates the arguments as Python literals")
+replace("except ValueError", "except (ValueError, SyntaxError)")
 # %% 06.5 wrong: ignores the sign | hint: -1.5 is a number, too, so
 replace("float(text)", "abs(float(text))")
 # %% 06.5 wrong: skips an argument that is not a number | hint: One argument is a word. Return
@@ -511,6 +588,12 @@ replace("rospy.wait_for_service", "rospy.wait_for_servise")
 replace("volume <= limit", "volume < limit", times=2)
 # %% 06.6 wrong: always exits with status 0 | hint: The volume in the response is larger
 replace("return 0 if volume <= limit else 1", "return 0")
+# %% 06.6 wrong: ignores a fifth argument | hint: The program ignored the fifth argument
+based_on("writes all code in one block")
+replace("rospy.myargv()[1:]", "rospy.myargv()[1:5]")
+# %% 06.6 wrong: removes the digits after the point of the volume | hint: The volume in the response is larger
+based_on("writes all code in one block")
+replace("response.volume > limit", "int(response.volume) > limit")
 # %% 06.6 wrong: returns True instead of 1 | hint: The volume in the response is at
 replace("return 0 if volume <= limit else 1", "return volume <= limit")
 # %% 06.6 wrong: does not catch ROSException | hint: rospy.ROSException after 2 s

@@ -40,10 +40,10 @@ class Silence:
 
 @dataclass(frozen=True)
 class Late:
-    """Wait for the time `delay` (s), and then respond with the values `values`."""
+    """Wait for the time `delay` (s), and then respond with the values `values`, or refuse the request."""
 
     delay: float
-    values: Mapping[str, Value]
+    values: Mapping[str, Value] | Refuse
 
 
 Act = Mapping[str, Value] | genpy.Message | Refuse | HangUp | Silence | Late

@@ -75,6 +75,17 @@ def read_the_arguments(context: CheckContext) -> None:
             "ValueError only if the text is not a number."
         ),
     )
+    whole = context.random.integer(1, 99)
+    context.expect(
+        "a number needs no point",
+        expected=[whole, 0.25, whole * 10],
+        actual=context.run("read_sides", [program, f"{whole}", "25e-2", f"{whole}e1"]).returned(),
+        near=1e-9,
+        hints=(
+            f"{whole} and 25e-2 are numbers, too. Do not test the characters of an argument: use "
+            "float(text), which raises ValueError only if the text is not a number."
+        ),
+    )
     remapped = [
         program,
         *context.random.shuffled(
@@ -118,6 +129,8 @@ def read_the_arguments(context: CheckContext) -> None:
         [texts[0], "wide", texts[2]],
         [*texts[:2], "wide", texts[2]],
         [texts[0], f"float({texts[1]})", texts[2]],
+        [*texts[:2], f"{texts[2]}m"],
+        ["True", *texts[1:]],
     ):
         context.expect(
             "the function returns None if an argument is not a number",
@@ -129,10 +142,22 @@ def read_the_arguments(context: CheckContext) -> None:
                     (
                         matches("could not convert"),
                         "float('wide') raises ValueError. Catch this exception, and return None.",
-                    )
+                    ),
+                    (
+                        matches("SyntaxError"),
+                        "Python evaluated an argument such as 5m as code. Convert each argument with "
+                        "float(text), which raises ValueError for every text that is not a number.",
+                    ),
                 ],
             ).returned(),
-            hints="One argument is a word. Return None, and do not ignore the word.",
+            hints=[
+                (
+                    [1.0, *sides[1:]],
+                    "The argument True is a word, but the function returned the number 1. Convert the text "
+                    "with float(text), and do not evaluate the text as Python code.",
+                ),
+                (ANYTHING, "One argument is a word. Return None, and do not ignore the word."),
+            ],
         )
     _in_a_random_order(context, program)
     context.prepare(LONGER)

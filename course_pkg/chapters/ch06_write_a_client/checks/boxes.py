@@ -57,6 +57,6 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
 def volumes(context: CheckContext, count: int) -> list[float]:
     """Return volumes that a float32 stores exactly.
 
-    The volumes are not whole numbers, so that a rounded result is wrong.
+    The volumes have many digits after the point, so that a result rounded to three decimals is wrong.
     """
-    return [whole + 0.375 for whole in context.random.integers(count, 1000, 9000)]
+    return [whole + 683 / 2**16 for whole in context.random.integers(count, 10, 200)]

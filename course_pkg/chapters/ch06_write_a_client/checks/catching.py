@@ -4,9 +4,12 @@ import math
 
 from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, stops, volumes
 from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Refuse, Silence, matches, part
+from course_pkg.checking.peers.faulty_server import Fault, Stumble
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.result import Result
+from course_pkg.types import compile_service
 
+CHANGED = "float64 size\n---\nfloat64 volume"  # another definition of the type geometry
 HIDDEN = (
     "The function catches the exception that a wrong argument causes. Catch only "
     "rospy.ServiceException, not a more general class of exceptions."
@@ -49,15 +52,17 @@ def catch_what_can_happen(context: CheckContext) -> None:
     """Call the student's function with working services, with failing services, and with wrong arguments."""
     good, flat = (f"/{context.random.word()}" for _ in range(2))
     sides = context.random.numbers(3, 0.5, 9.0)
-    (volume,) = volumes(context, 1)
-    context.serve(good, GEOMETRY, lambda _: {"volume": volume})
+    volume, second = volumes(context, 2)
+    response = {"volume": volume}
+    context.serve(good, GEOMETRY, lambda _: response)
     context.serve(flat, GEOMETRY, lambda _: {"volume": 0.0})
-    for name, expected in ((good, volume), (flat, 0.0)):
+    for name, expected in ((good, volume), (flat, 0.0), (good, second)):
+        response["volume"] = expected
         context.expect(
             "the function returns the volume of the response",
             expected=expected,
             actual=context.run("volume_or_none", name, *sides).returned(),
-            near=1e-6,
+            near=1e-9,
             hints=[
                 (
                     None,
@@ -68,6 +73,11 @@ def catch_what_can_happen(context: CheckContext) -> None:
                     math.prod(sides),
                     "The function returned the product of the sides. Call the service, and "
                     "return the volume from the response.",
+                ),
+                (
+                    volume,
+                    "The check called the function again with the same arguments, and it returned the volume "
+                    "of the first response. Call the service in each call of the function.",
                 ),
                 (ANYTHING, "Return the field `volume` of the response."),
             ],
@@ -117,7 +127,7 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
                 "the function returns the volume of the response",
                 expected=volume,
                 actual=context.run("volume_or_none", name, *sides).returned(),
-                near=1e-6,
+                near=1e-9,
                 hints=DEPENDS,
             )
             if len(server.requests) > 1:
@@ -167,7 +177,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
         within=12.0,
         hints=[
             (
-                matches("^ServiceException.*(responded with|transport)"),
+                matches("^ServiceException.*(responded with|transport|md5sums)"),
                 "In this case, too, the call raised rospy.ServiceException. Return None for each "
                 "rospy.ServiceException, and ignore the text of its error message.",
             ),
@@ -200,13 +210,18 @@ def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | Non
     Each tuple contains the name of the failure, the name of the service, and the server. If no server runs,
     the third item is None.
     """
-    refusing, dying, killed, nowhere = (f"/{context.random.word()}" for _ in range(4))
+    refusing, dying, killed, nowhere, buggy, other = (f"/{context.random.word()}" for _ in range(6))
     refuses = context.serve(refusing, GEOMETRY, lambda _: Refuse("not today"))
     dies = context.serve(dying, GEOMETRY, lambda _: HangUp())
+    stumbles = context.faulty(buggy, GEOMETRY, lambda _: {})
+    stumbles.plan.append(Fault(Stumble("division by zero")))
+    context.serve(other, compile_service(GEOMETRY, CHANGED).cls, lambda _: {})
     context.absent(killed, stale=True)
     return [
         ("does not exist", nowhere, None),
         ("refuses", refusing, refuses),
+        ("has a bug in its handler", buggy, stumbles),
+        ("uses another definition of the type", other, None),
         ("dies during the call", dying, dies),
         ("was killed", killed, None),
     ]

@@ -133,7 +133,8 @@ def does_it_fit(context: CheckContext) -> None:
 def _cases(context: CheckContext) -> list[Case]:
     sides = [str(side) for side in context.random.numbers(3, 0.5, 9.0)]
     volume = context.random.integer(100, 900) + 0.375
-    limits = (str(volume + 0.5), str(volume), str(volume - 0.5))
+    # The whole parts of the three limits are equal, so that a rounded volume gives a wrong result.
+    limits = (str(volume + 0.25), str(volume), str(volume - 0.25))
     fits, equal, smaller = ([*sides, limit] for limit in limits)
 
     def answer(_: object) -> dict[str, float]:
@@ -168,6 +169,15 @@ def _cases(context: CheckContext) -> list[Case]:
             ends=COMPARED,
         ),
         Case("only three arguments", sides, answer, 2, USAGE, calls=0, hint=usage),
+        Case(
+            "five arguments",
+            [*fits, str(context.random.integer(1, 9))],
+            answer,
+            2,
+            USAGE,
+            calls=0,
+            hint=usage,
+        ),
         Case(
             "a word in place of a number",
             [sides[0], "wide", *fits[2:]],
@@ -329,6 +339,11 @@ def _prints(case: Case, out: str) -> bool:
 def _about_calls(calls: int, case: Case, done: Finished, elsewhere: bool) -> str:
     if calls > case.calls > 0:
         return "The program called the service more than once. Call the service once, and store the response."
+    if calls and len(case.arguments) > 4:
+        return (
+            "The program ignored the fifth argument and sent a request. Test whether there are exactly four "
+            "arguments before the call."
+        )
     if calls:
         return (
             "The arguments were wrong, but the program sent a request. Check the arguments before the call."

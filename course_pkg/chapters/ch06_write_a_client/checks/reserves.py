@@ -11,7 +11,10 @@ from course_pkg.checking.peers.scripted_server import Act, Script
 from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Result
 
-KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "next", "nowhere")
+KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "slow", "frozen", "next", "nowhere")
+# Three missing services may delay the result by at most this time in s. A wait of 1 s takes 1.2 s, because
+# rospy looks for a service every 0.3 s.
+MISSING = 4.1
 # A service that does not respond may delay the result by at most this time in s; a correct function waits 1 s
 # for the response.
 LONGEST = 1.75
@@ -50,6 +53,7 @@ def ask_the_next_one(context: CheckContext) -> None:
     context.serve(names["late"], GEOMETRY, lambda _: Late(0.6, {"volume": late}))
     context.serve(names["tardy"], GEOMETRY, lambda _: Late(1.3, {"volume": tardy}))
     context.serve(names["refuses"], GEOMETRY, lambda _: Refuse("not today"))
+    context.serve(names["slow"], GEOMETRY, lambda _: Late(0.5, Refuse("not today")))
     # These lists contain the times in s at which the services "frozen" and "next" were called.
     frozen_at: list[float] = []
     next_at: list[float] = []
@@ -61,7 +65,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         "the first service is used if it responds",
         expected=first,
         actual=working.returned(),
-        near=1e-6,
+        near=1e-9,
         hints=[
             (None, NO_RETURN),
             (
@@ -111,7 +115,7 @@ def ask_the_next_one(context: CheckContext) -> None:
             "if a call fails, the next service is used",
             expected=second,
             actual=_first_of(context, names, *failing, "second").returned(),
-            near=1e-6,
+            near=1e-9,
             hints=[
                 (
                     None,
@@ -121,12 +125,13 @@ def ask_the_next_one(context: CheckContext) -> None:
             ],
         )
     context.fulfilled(NEXT)
+    _waits_briefly_for_missing_services(context, names, working.took)
     before = len(reserve.requests)
     context.expect(
         "the client waits for a response that comes after 0.6 s",
         expected=late,
         actual=_first_of(context, names, "late", "second").returned(),
-        near=1e-6,
+        near=1e-9,
         hints=[
             (
                 second,
@@ -149,7 +154,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         "if a service is frozen, the next service is used",
         expected=second,
         actual=frozen.returned(),
-        near=1e-6,
+        near=1e-9,
         hints=[
             (
                 None,
@@ -185,7 +190,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         "the client waits for a response that comes after 0.6 s",
         expected=late,
         actual=_first_of(context, names, "tardy", "late").returned(),
-        near=1e-6,
+        near=1e-9,
         hints=[
             (
                 tardy,
@@ -200,7 +205,42 @@ def ask_the_next_one(context: CheckContext) -> None:
         actual=_first_of(context, names, "nowhere", "refuses", hints=_NO_RESPONSE).returned(),
         hints="No service responded, but the function returned a value. Return None after the loop.",
     )
+    context.expect(
+        "the function returns None if no service responds",
+        expected=None,
+        actual=_first_of(context, names, "tardy", "slow", hints=_NO_RESPONSE).returned(),
+        hints=[
+            (
+                tardy,
+                "The first service responded after 1.3 s, and the function returned this late response. A "
+                "response that takes longer than one second does not count.",
+            )
+        ],
+    )
     _in_a_random_order(context, names, {"first": first, "second": second, "flat": 0.0})
+
+
+def _waits_briefly_for_missing_services(
+    context: CheckContext, names: Mapping[str, str], usual: float
+) -> None:
+    """Assert that each missing service delays the result by about one second at most.
+
+    `usual` is the duration of a call with a service that responds, in s.
+    """
+    took: list[float] = []
+    while not took or (took[-1] > MISSING and len(took) < 2):  # The machine can be busy, so repeat it once.
+        result = _first_of(context, names, "nowhere", "nowhere", "nowhere", "second")
+        result.returned()
+        took.append(result.took - usual)
+    context.require(
+        "a missing service delays the result by at most one second",
+        holds=min(took) <= MISSING,
+        expected="at most 1 s for each of three missing services",
+        actual=f"a result after {min(took):.1f} s",
+        hints=(
+            "The function waits too long for a missing service. Set the timeout of wait_for_service to 1 s."
+        ),
+    )
 
 
 def _noted(times: list[float], act: Act) -> Script:
@@ -231,7 +271,7 @@ def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: M
             else "the function returns None if no service responds",
             expected=works.get(working),
             actual=_first_of(context, names, *failing, *filter(None, [working])).returned(),
-            near=1e-6,
+            near=1e-9,
             hints=(
                 "The result has to depend on the services in the list, not on earlier calls. Call "
                 "these services each time your function runs."

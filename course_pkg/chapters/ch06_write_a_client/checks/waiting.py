@@ -174,6 +174,17 @@ def _in_a_random_order(context: CheckContext, servers: list[ScriptedServer]) -> 
                     "until the time is over, and then return False."
                 ),
             )
+        if not expected:
+            servers.append(context.serve(name, GEOMETRY, lambda _: {}))
+            context.expect(
+                "the function returns True for a service that exists",
+                expected=True,
+                actual=context.run("is_there", name, seconds, within=6.0).returned(),
+                hints=(
+                    "Between two calls with the same arguments, the service started, but the result did not "
+                    "change. Wait for the service in each call."
+                ),
+            )
 
 
 def _never_there(context: CheckContext, name: str, hint: str) -> None:
