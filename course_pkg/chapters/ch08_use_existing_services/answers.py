@@ -35,6 +35,10 @@ def services_of(kind):
 replace("names = [] … return names", "return [name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind]")
 # %% 08.1 wrong: stops at a dead server | hint: Your function stopped at a
 replace("continue", "break")
+# %% 08.1 wrong: leaves out services for loggers | hint: Select the services only by their type.
+replace("        try:", '        if "logger" in name:\n            continue\n        try:')
+# %% 08.1 wrong: finds only names with two parts | hint: Select the services only by their type.
+replace("        try:", '        if name.count("/") != 2:\n            continue\n        try:')
 # %% 08.1 wrong: decides by the name of the service | hint: Your list contains services of
 replace("names = [] … return names", 'return [name for name in rosservice.get_service_list() if kind.split("/")[1].lower() in name.lower()]')
 # %% 08.1 wrong: compares only the name of the type, without the package | hint: Your list contains a service whose type
@@ -182,8 +186,13 @@ replace("str(error)", '"it does not work"')
 replace("success=False", "success=True")
 # %% 08.2 wrong: returns success=True if switching off fails | hint: The call of /on_off failed
 replace("success=False", "success=not request.data")
-# %% 08.2 wrong: returns success=True for any response | hint: The lamp responded with the
+# %% 08.2 wrong: returns success=True for any response | hint: The lamp responded with the wrong
 replace('success=state == ("ON" if request.data else "OFF")', "success=True")
+# %% 08.2 wrong: accepts every state except the opposite state | hint: Return success=True only if the state is equal
+replace('state == ("ON" if request.data else "OFF")', 'state != ("OFF" if request.data else "ON")')
+# %% 08.2 wrong: accepts a state that contains the wanted state | hint: Return success=True only if the state is equal
+replace('state == ("ON"', '("ON"')
+replace('"OFF"), message', '"OFF") in state, message')
 # %% 08.2 wrong: returns the wanted state as the message | hint: The message is the wanted
 replace("message=state", 'message="ON" if request.data else "OFF"')
 # %% 08.2 wrong: compares the state with True | hint: The lamp has the wanted state
@@ -310,6 +319,8 @@ def move(switch, to_open):
 
 # %% 08.3 wrong: compares the message with a bool | hint: Compare the message
 replace('("open" if to_open else "closed")', "to_open")
+# %% 08.3 wrong: stores the results | hint: Call `set` each time move() runs
+replace("def move", "import functools\n\n\n@functools.lru_cache(maxsize=None)\ndef move")
 # %% 08.3 wrong: forgets to return | hint: without a return statement
 replace('answer = rospy … was there"', """rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)
     rospy.ServiceProxy(f"{switch}/report", Trigger)()""")
@@ -489,6 +500,24 @@ replace("[fields]", "[known]")
 # %% 08.5 wrong: refuses only one unknown name | hint: The function ignored a field name
 based_on("ignores unknown fields")
 replace("{name: fields[name] for name in request.__slots__ if name in fields}", '{name: fields[name] for name in fields if name in request.__slots__ or name == "dat"}')
+# %% 08.5 wrong: ignores unknown fields of an inner dict | hint: The function ignored a field name
+def call_any(service, fields):
+    def known(message, values):
+        return {
+            name: known(getattr(message, name), value) if isinstance(value, dict) else value
+            for name, value in values.items()
+            if name in message.__slots__
+        }
+
+    cls = rosservice.get_service_class_by_name(service)
+    request = cls._request_class()
+    inner = {
+        name: known(getattr(request, name), value) if isinstance(value, dict) else value
+        for name, value in fields.items()
+    }
+    genpy.message.fill_message_args(request, [inner])
+    return rospy.ServiceProxy(service, cls)(request)
+
 # %% 08.5 wrong: returns a dict | hint: The function returned a dict
 replace("cls =", "kind =")
 replace("cls._request_class", "kind._request_class")
@@ -556,6 +585,8 @@ replace('headers["md5sum"]', 'headers["md5"]')
 replace("headers = rosservice.get_service_headers(service, uri)", "its = rosservice.get_service_class_by_name(service)")
 replace('headers["type"]', "its._type")
 replace('headers["md5sum"]', "its._md5sum")
+# %% 08.6 wrong: stores the results | hint: the graph has changed, but the result is the same
+replace("def diagnose", "import functools\n\n\n@functools.lru_cache(maxsize=None)\ndef diagnose")
 # %% 08.6 wrong: prints the result instead of returning it | hint: without a return statement
 replace('return "ok" if', 'print("ok" if')
 replace('else "another definition"', 'else "another definition")')

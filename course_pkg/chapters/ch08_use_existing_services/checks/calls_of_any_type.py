@@ -94,6 +94,11 @@ def call_of_any_type(context: CheckContext) -> None:
     for fields, stray in zip(({}, {"data": True}), strays, strict=True):
         wrong = context.run("call_any", name, {**fields, stray: True})
         _is_an_error(context, wrong, server, stray)
+    nested = f"/{context.random.word()}"
+    camera = context.serve(nested, "sensor_msgs/SetCameraInfo", lambda _: {"success": True})
+    stray = context.random.word()
+    wrong = context.run("call_any", nested, {"camera_info": {"width": 640, stray: 480}})
+    _is_an_error(context, wrong, camera, stray)
     context.prepare(SERIALISED)
     whole = context.run(
         "serialised", Its("call_any"), name, {"data": True}, worded="call_any()", hints=ERRORS

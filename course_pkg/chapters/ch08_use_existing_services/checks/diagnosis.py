@@ -60,6 +60,10 @@ OTHER_RESULTS: Hints = [
         "`md5sum` of the headers with the MD5 sum of the client's type.",
     ),
 ]
+SAME = (
+    "Since the last call with the same arguments, the graph has changed, but the result is the same. Get the "
+    "facts in each call."
+)
 WHY = {
     "not registered": (
         "The master has no address for this service, so get_service_uri returns None. Test for None "
@@ -106,7 +110,18 @@ def find_the_cause(context: CheckContext) -> None:
     servers.append(context.serve(next(iter(names)), TYPES[kind], lambda _: {}))
     for name in context.random.shuffled([*names, working]):
         _returns(context, name, kind, names.get(name, "ok"))
+    _notices_changes(context, working, kind, servers)
     _calls_nothing(context, servers)
+
+
+def _notices_changes(context: CheckContext, name: str, kind: str, servers: list[ScriptedServer]) -> None:
+    """Stop the server of `name`, register a closed port, and start the server again."""
+    servers[0].leave()
+    _returns(context, name, kind, "not registered", former="ok")
+    context.absent(name, stale=True)
+    _returns(context, name, kind, "server is gone", former="not registered")
+    servers.append(context.serve(name, TYPES[kind], lambda _: {}))
+    _returns(context, name, kind, "ok", former="server is gone")
 
 
 def _calls_nothing(context: CheckContext, servers: list[ScriptedServer]) -> None:
@@ -143,7 +158,8 @@ def _services(context: CheckContext, kind: str, other: str, changed: ServiceClas
     }
 
 
-def _returns(context: CheckContext, name: str, kind: str, expected: str) -> None:
+def _returns(context: CheckContext, name: str, kind: str, expected: str, former: str = "") -> None:
+    """Assert that diagnose() returns `expected`. `former` is the right result of the previous call, or ""."""
     result = context.run("diagnose", name, Its(kind), hints=ERRORS)
     context.expect(
         f'diagnose() returns "{expected}"',
@@ -151,6 +167,7 @@ def _returns(context: CheckContext, name: str, kind: str, expected: str) -> None
         actual=result.returned(),
         hints=[
             (None, NO_RETURN),
+            *([(former, SAME)] if former else []),
             *(OTHER_RESULTS if expected == "ok" else ()),
             (lambda actual: actual in RESULTS, WHY[expected]),
             (ANYTHING, "Return one of the five strings in the table."),

@@ -24,6 +24,10 @@ SOME = (
     "Your function found only some of the services. Check all services of the list, and return the "
     "result after the loop."
 )
+NAMES = (
+    "Your function left out a service of the type because of the service's name. Select the services only by "
+    "their type."
+)
 GONE = (
     "Your function stopped at a service whose server has ended. Catch the exception inside the loop, "
     "and continue with the next service."
@@ -89,6 +93,11 @@ def find_by_type(context: CheckContext) -> None:
         servers.append(context.serve(name, kind, lambda _: {}))
         mine.add(name)
         _finds(context, kind, hint, mine)
+    # A service of the type can have any name, with one or more parts, and with words such as "loggers".
+    for name in (f"/{context.random.word()}", f"/{word}/arm/{context.random.word()}/get_loggers"):
+        servers.append(context.serve(name, kind, lambda _: {}))
+        mine.add(name)
+        _finds(context, kind, NAMES, mine)
     ended, killed = first
     servers[0].leave()
     _finds(context, kind, SOME, mine - {ended}, {ended})

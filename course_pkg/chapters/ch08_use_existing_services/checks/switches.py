@@ -142,6 +142,35 @@ def move_and_verify(context: CheckContext) -> None:
     # later.
     for (_, to_open), setting in zip(moves, settings, strict=True):
         _is_set_once(context, setting, to_open)
+    _move_again(context)
+
+
+def _move_again(context: CheckContext) -> None:
+    """Call move() twice with the same arguments; the second time, the switch is in the position already."""
+    name, to_open = f"/{context.random.word()}", context.random.choice([True, False])
+    moves, is_there = CASES[0], CASES[1]
+    switch = FakeSwitch(moves, not to_open, context.random.word())
+    setting = context.serve(f"{name}/set", "std_srvs/SetBool", switch.handle_set)
+    context.serve(f"{name}/report", "std_srvs/Trigger", switch.handle_report)
+    for count, case in enumerate((moves, is_there), start=1):
+        switch.case = case
+        result = context.run("move", name, to_open).returned()
+        again = (
+            "The check called move() twice with the same arguments, but the second time, your function did "
+            "not call `set`. Call `set` each time move() runs."
+        )
+        context.expect(
+            "`set` is called once, with the wanted position",
+            expected=[{"data": to_open}] * count,
+            actual=setting.requests,
+            hints=[([{"data": to_open}], again), *_wrongly_set(to_open)],
+        )
+        context.expect(
+            f'{case.name}: the result is "{case.expected}"',
+            expected=case.expected,
+            actual=result,
+            hints=_wrong_outcome(case, switch),
+        )
 
 
 def _wrongly_set(to_open: bool) -> Hints:
