@@ -93,10 +93,12 @@ generate_messages(
 add_custom_target(my_geometry_programs ALL)
 add_dependencies(my_geometry_programs my_geometry_generate_messages)
 catkin_package(
-  CATKIN_DEPENDS message_runtime
+  CATKIN_DEPENDS std_msgs rospy message_runtime
 )
 """
 
+# %% 07.3 wrong: names only message_runtime in catkin_package | hint: Your catkin_package does not name … rospy and std_msgs
+replace("message_runtime rospy std_msgs", "message_runtime")
 # %% 07.3 wrong: omits add_service_files | hint: , so the build generates no
 replace("\nadd_service_files(FILES geometry.srv)", "")
 # %% 07.3 wrong: turns generate_messages into a comment | hint: The command generate_messages is missing, so the build generates no
@@ -132,9 +134,9 @@ add_dependencies(${PROJECT_NAME}_programs ${${PROJECT_NAME}_EXPORTED_TARGETS} ${
 add_service_files""")
 # %% 07.3 wrong: names message_generation in catkin_package | hint: write message_runtime instead of message_generation
 replace("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS message_generation")
-# %% 07.3 wrong: names no package in catkin_package | hint: In catkin_package, message_runtime is missing.
+# %% 07.3 wrong: names no package in catkin_package | hint: Your catkin_package does not name
 replace("CATKIN_DEPENDS message_runtime rospy std_msgs", "")
-# %% 07.3 wrong: writes message_runtime only in a generated comment | hint: In catkin_package, message_runtime is missing.
+# %% 07.3 wrong: writes message_runtime only in a generated comment | hint: Your catkin_package does not name
 replace("CATKIN_DEPENDS message_runtime rospy std_msgs)", """CATKIN_DEPENDS rospy std_msgs)
 file(APPEND "${CATKIN_DEVEL_PREFIX}/share/my_geometry/cmake/my_geometryConfig.cmake" "# message_runtime")""")
 # %% 07.3 wrong: omits catkin_package | hint: Without catkin_package
@@ -192,6 +194,9 @@ script.chmod(0o644)
 replace("if __name__ … rospy.spin()", """rospy.init_node("SERVER_NODE")
 rospy.Service("/getGeometry", geometry, handle_geometry)
 rospy.spin()""")
+# %% 07.4 wrong: tests the name of the program in place of __name__ | hint: An import of the script starts
+replace("import rospy\n", "import sys\n\nimport rospy\n")
+replace('__name__ == "__main__"', 'sys.argv[0].endswith(".py")')
 # %% 07.4 wrong: does not call spin | hint: The program ended, so its service
 replace("\n    rospy.spin()", "")
 # %% 07.4 wrong: imports the type from the course's package | hint: Import the type from your own
@@ -285,6 +290,10 @@ replace('if __name__ == "__main__":\n    sys.exit(main(rospy.myargv(sys.argv)[1:
     print("volume: %.2f" % answer.volume)""")
 # %% 07.5 wrong: does not remove ROS's arguments from sys.argv | hint: ROS uses the arguments that contain :=.
 replace("rospy.myargv(sys.argv)[1:]", "sys.argv[1:]")
+# %% 07.5 wrong: removes only the arguments that begin with an underscore | hint: ROS uses the arguments that contain :=.
+replace("rospy.myargv(sys.argv)[1:]", '[text for text in sys.argv[1:] if not text.startswith("_")]')
+# %% 07.5 wrong: accepts only digits and a point | hint: -1.2, 52e-1 and 9 are numbers
+replace("    try:\n        length", '    if not all(text.replace(".", "", 1).isdigit() for text in arguments):\n        print(USAGE)\n        return 2\n    try:\n        length')
 # %% 07.5 wrong: sends the height first | hint: The request contains the numbers
 replace("(length, width, height)\n", "(height, width, length)\n")
 # %% 07.5 wrong: converts the arguments to int | hint: Convert the three arguments to float,
@@ -351,7 +360,7 @@ solution()
 """%%writefile src/my_geometry/CMakeLists.txt
 cmake_minimum_required(VERSION 3.10)
 project(my_geometry)
-find_package(catkin REQUIRED COMPONENTS message_generation std_msgs)
+find_package(catkin REQUIRED COMPONENTS message_generation std_msgs rospy)
 add_service_files(FILES geometry.srv)
 generate_messages(DEPENDENCIES std_msgs)
 catkin_package(CATKIN_DEPENDS message_runtime)
@@ -367,9 +376,12 @@ replace("catkin_install_python( … BIN_DESTINATION}\n)", "file(COPY scripts/ser
 replace(" scripts/client.py", "")
 # %% 07.6 wrong: writes a wrong destination | hint: rosrun does not search the
 replace("${CATKIN_PACKAGE_BIN_DESTINATION}", "bin")
-# %% 07.6 wrong: installs the client as a file, not as a program | hint: The installed file is not executable
+# %% 07.6 wrong: installs the client as a file, not as a program | hint: because install(FILES …) removes the permission
 based_on("uses two rules, one of them from CMake")
 replace("install(PROGRAMS scripts/client.py", "install(FILES scripts/client.py")
+# %% 07.6 wrong: installs a client that its owner cannot execute | hint: do not contain OWNER_EXECUTE
+based_on("uses two rules, one of them from CMake")
+replace("${PROJECT_NAME})", "${PROJECT_NAME} PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ GROUP_EXECUTE)")
 # %% 07.6 wrong: installs links to the scripts in src | hint: rosrun does not find the installed script
 replace("catkin_install_python( … BIN_DESTINATION}\n)", """install(CODE "
   file(MAKE_DIRECTORY \\${CMAKE_INSTALL_PREFIX}/lib/my_geometry)
@@ -464,6 +476,10 @@ replace("catkin_make\nsource", "# catkin_make\n# source")
 replace("rosrun my_geometry server.py", "# rosrun my_geometry server.py")
 replace("source devel/setup.bash\nrosservice", "# source devel/setup.bash\n# rosservice")
 replace("rosrun my_geometry client.py", "# rosrun my_geometry client.py")
+# %% 07.7 wrong: deletes the build instead of building | hint: The command that builds the package
+replace("catkin_make", "catkin_make clean")
+# %% 07.7 wrong: uses names of fields that do not exist | hint: has wrong names of fields
+replace("/getGeometry 1.2 5.2 8.9", '/getGeometry "{a: 1.2, b: 5.2, c: 8.9}"')
 # %% 07.7 wrong: omits the build | hint: The command that builds the package
 replace("catkin_make\n", "")
 # %% 07.7 wrong: omits the command source | hint: The command `source devel/setup.bash` is missing.
@@ -535,6 +551,8 @@ replace("""rospy.logwarn("refused")
         raise rospy.ServiceException("the number is %d, and only 0 and 1 are allowed" % req.number)""", "return None")
 # %% 07.9 wrong: omits the number in the error message | hint: The message of the exception
 replace('f"{request.number} is neither 0 nor 1"', '"neither 0 nor 1"')
+# %% 07.9 wrong: looks only at the lowest 16 bits | hint: The server accepted a number
+replace("    if request", "    request.number = request.number & 0xFFFF\n    if request")
 # %% 07.9 wrong: raises a KeyError | hint: The exception has the wrong
 replace('\n    if request.number not in STATES:\n        raise rospy.ServiceException(f"{request.number} is neither 0 nor 1")', "")
 # %% 07.9 wrong: becomes a program of the course | hint: Your script starts or imports a program

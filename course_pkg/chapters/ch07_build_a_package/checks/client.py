@@ -67,7 +67,9 @@ def _prints_the_answer(context: CheckContext, package: BuiltPackage) -> None:
     # The area has only one decimal place, so print(round(area, 2)) does not print two decimal places.
     area, volume = context.random.number(100.0, 900.0, digits=1), context.random.number(100.0, 900.0)
     server = context.serve(SERVICE, geometry_class(), lambda _: {"area": area, "volume": volume})
-    done = _run(package, [*map(str, sides), f"__name:={context.random.word()}"])
+    name, topic = context.random.word(), context.random.word()
+    for_ros = context.random.shuffled([f"__name:={name}", f"_{name}:=3", f"{topic}:=/{topic}_2"])
+    done = _run(package, [*map(str, sides), *for_ros])
     server.leave()
     sent = [round(float(str(value)), 2) for value in server.requests[0].values()] if server.requests else []
     context.require(
@@ -186,8 +188,18 @@ def _why_no_usage(printed: str, arguments: list[str]) -> str:
 
 def _ends_with_one_after_a_refusal(context: CheckContext, package: BuiltPackage) -> None:
     server = context.serve(SERVICE, geometry_class(), lambda _: Refuse("no box"))
-    done = _run(package, ["1.2", "5.2", "8.9"])
+    done = _run(package, ["-1.2", "52e-1", "9"])
     server.leave()
+    context.require(
+        "if an argument is a negative number, or has no point, the client sends a request",
+        holds=bool(server.requests),
+        expected="one request",
+        actual=_outcome(done),
+        hints=(
+            "The arguments -1.2, 52e-1 and 9 are numbers, but the client sent no request. Do not test the "
+            "characters of an argument: use float(), which raises ValueError for a text that is not a number."
+        ),
+    )
     context.require(
         "if the server refuses the call, the client prints the error message and ends with exit status 1",
         holds=done.status == 1 and "no box" in done.out + done.err and "Traceback" not in done.err,

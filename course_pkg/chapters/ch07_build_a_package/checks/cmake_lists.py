@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 
 from course_pkg.chapters.ch07_build_a_package.checks.packages import GEOMETRY, MY_GEOMETRY
@@ -14,6 +15,7 @@ from course_pkg.workspace.cmake_messages import cmake_commands
 NAME = "CMakeLists.txt"
 FILE = MY_GEOMETRY.path(NAME)
 TARGET = "my_geometry_programs"
+DEPENDS = ("message_runtime", "rospy", "std_msgs")
 CLASSES = "devel/lib/python3*/*-packages/my_geometry"
 CONFIGURATION = "devel/share/my_geometry/cmake/my_geometryConfig.cmake"
 
@@ -38,8 +40,8 @@ WAITS = "Make sure that the target my_geometry_programs depends on the generated
     points=3,
     goal=(
         "Complete CMakeLists.txt. The build has to generate the type my_geometry/geometry before it "
-        "builds the target my_geometry_programs. Declare message_runtime as a dependency of every "
-        "package that uses this package."
+        "builds the target my_geometry_programs. Declare message_runtime, rospy and std_msgs as "
+        "dependencies of every package that uses this package."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
@@ -47,7 +49,7 @@ WAITS = "Make sure that the target my_geometry_programs depends on the generated
     goals=[
         GENERATED,
         WAITS,
-        "Declare message_runtime as a dependency of every package that uses this package.",
+        "Declare the run-time dependencies of every package that uses this package.",
     ],
 )
 def the_build(context: CheckContext) -> None:
@@ -140,13 +142,14 @@ def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: st
     # catkin_package writes the names after CATKIN_DEPENDS into the line "set(depends …". A later line has no
     # effect on other packages.
     done = package.folder.command("grep", "--max-count=1", "^ *set(depends ", CONFIGURATION)
+    missing = [name for name in DEPENDS if name not in re.findall(r"\w+", done.out)]
     context.require(
-        "every package that uses this package also depends on message_runtime",
-        holds="message_runtime" in done.out,
-        expected="message_runtime in CATKIN_DEPENDS of catkin_package",
-        actual="no message_runtime",
-        hints="In catkin_package, message_runtime is missing. Write CATKIN_DEPENDS, and then the packages "
-        "that your package needs at run time."
+        f"every package that uses this package also depends on {', '.join(DEPENDS)}",
+        holds=not missing,
+        expected=f"{', '.join(DEPENDS)} in CATKIN_DEPENDS of catkin_package",
+        actual=f"no {', '.join(missing)}",
+        hints=f"Your catkin_package does not name {' and '.join(missing)}. Write CATKIN_DEPENDS, and then "
+        "the three packages that your package needs at run time."
         if _has(text, "catkin_package")
         else "Without catkin_package, other packages cannot find this package. Add the command "
         "catkin_package.",

@@ -13,6 +13,7 @@ from course_pkg.checking.shared.catkin_package import LIMITS, BuiltPackage, buil
 from course_pkg.workspace.cmake_messages import cmake_commands
 
 SCRIPTS = ("server.py", "client.py")
+EXECUTABLE = 0o100  # Linux tests this bit of a file's mode if the file's owner executes the file.
 PLACE = "lib/my_geometry"
 INSTALLING = 20.0  # The installation may take up to this time in s; it takes 1 s on an idle machine.
 INSTALLED = "Install server.py and client.py in the folder that rosrun searches."
@@ -77,7 +78,7 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
     there = f"{PLACE}/{script}" in places
     context.require(
         f"{script} is installed in {PLACE}, as an executable file",
-        holds=there and "7" in modes[places.index(f"{PLACE}/{script}")],
+        holds=there and int(modes[places.index(f"{PLACE}/{script}")], 8) & EXECUTABLE != 0,
         expected=f"{PLACE}/{script}",
         actual=", ".join(places) + (", a file without the permission to execute it" if there else "")
         or "no such file",
@@ -96,6 +97,11 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
 
 def _why_not_there(text: str, script: str, places: list[str], *, there: bool) -> str:
     rules = [each.name for each in cmake_commands(text) if not each.is_comment]
+    if there and "PERMISSIONS" in text:
+        return (
+            "The installed file is not executable, because the PERMISSIONS in your install rule do not "
+            "contain OWNER_EXECUTE. Use catkin_install_python, which sets the right permissions."
+        )
     if there:
         return (
             "The installed file is not executable, because install(FILES …) removes the permission to "

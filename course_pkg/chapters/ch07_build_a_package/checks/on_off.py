@@ -93,7 +93,10 @@ def the_on_off_server(context: CheckContext) -> None:
             )
         context.fulfilled(ANSWERED)
         require_still_served(context, name)
-        for number in (2, -1, context.random.integer(3, 2_000_000_000)):
+        # The lowest bits of the last number are those of 0 or 1.
+        other = context.random.integer(3, 2_000_000_000)
+        long = context.random.integer(1, 30_000) * 2**16 + context.random.integer(0, 1)
+        for number in (2, -1, other, long):
             service.refused(
                 "any other number is refused, and the error message contains the number",
                 saying=(f"cannot process request: .*(?<!\\d){number}", f"contains {number}"),

@@ -30,12 +30,13 @@ LOGGERS = ("/get_loggers", "/set_logger_level")  # Every rospy node has these se
 # import, the import ends with a message.
 IMPORTS = """\
 import importlib.util, pathlib, sys, rospy
+path, sys.argv[0] = sys.argv[1], "tests.py"  # A program with this name imports the script.
 def began(*args, **kwargs):
     print("it began its work")
     sys.exit(3)
 for name in ("init_node", "Service", "ServiceProxy", "wait_for_service", "spin", "myargv"):
     setattr(rospy, name, began)
-spec = importlib.util.spec_from_file_location(pathlib.Path(sys.argv[1]).stem, sys.argv[1])
+spec = importlib.util.spec_from_file_location(pathlib.Path(path).stem, path)
 module = importlib.util.module_from_spec(spec)
 sys.modules[spec.name] = module  # dataclasses looks up the module there
 spec.loader.exec_module(module)

@@ -16,6 +16,7 @@ BLOCK = re.compile(r"^[ \t]*(?:```|~~~)[^\n`]*\n(.*?)^[ \t]*(?:```|~~~)", re.DOT
 # The shell executes no command in lines that match this pattern.
 PRINTED = re.compile(r"#|:\s|(?:echo|printf|true)\b")
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)"
+FIELDS = ("length", "width", "height")
 FIELD = rf"\w+: *{NUMBER}"
 CALL = re.compile(
     rf"rosservice +call +(?:(?:-v|--verbose|--wait) +)*/?getGeometry +(?:-- +)?"
@@ -24,9 +25,9 @@ CALL = re.compile(
 CLIENT = re.compile(rf"rosrun +my_geometry +client\.py(?: +{NUMBER}){{3}}")
 COMMANDS = (  # Each entry contains the pattern, the name and the hint of a required command.
     (
-        r"catkin_make\b",
+        r"catkin_make\b(?! +clean)",
         "catkin_make",
-        "The command that builds the package is missing. Write catkin_make in a code block.",
+        "The command that builds the package is missing. Write catkin_make in a code block, without `clean`.",
     ),
     (
         r"(?:source|\.) +(?:\S*/)?(?:devel|install)/setup\.(?:ba|z)?sh",
@@ -122,5 +123,14 @@ def _place_of_call(context: CheckContext, commands: str) -> int:
         "one number for each of the three sides."
         if others
         else "The call of the service is missing. Write the rosservice command from step 8.",
+    )
+    names = re.findall(r"(\w+):", found[0]) if found else []
+    context.require(
+        "README.md shows how to call the service",
+        holds=not names or sorted(names) == sorted(FIELDS),
+        expected="the fields length, width and height",
+        actual=", ".join(names),
+        hints="The command that calls the service has wrong names of fields, so rosservice refuses it. "
+        "Write the names of the fields of the request.",
     )
     return found.start() if found else 0
