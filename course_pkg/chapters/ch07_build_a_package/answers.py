@@ -552,7 +552,8 @@ replace("""rospy.logwarn("refused")
 # %% 07.9 wrong: omits the number in the error message | hint: The message of the exception
 replace('f"{request.number} is neither 0 nor 1"', '"neither 0 nor 1"')
 # %% 07.9 wrong: looks only at the lowest 16 bits | hint: The server accepted a number
-replace("    if request", "    request.number = request.number & 0xFFFF\n    if request")
+replace("    if request.number not in", "    number = request.number & 0xFFFF\n    if number not in")
+replace("STATES[request.number]", "STATES[number]")
 # %% 07.9 wrong: raises a KeyError | hint: The exception has the wrong
 replace('\n    if request.number not in STATES:\n        raise rospy.ServiceException(f"{request.number} is neither 0 nor 1")', "")
 # %% 07.9 wrong: becomes a program of the course | hint: Your script starts or imports a program
