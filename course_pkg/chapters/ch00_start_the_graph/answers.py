@@ -76,6 +76,10 @@ replace("return measure", "measure")
 replace("measure(length, width, height)", "measure(height, width, length)")
 # %% 00.2 wrong: rounds the volume | hint: Do not round the volume.
 replace("measure(length, width, height).volume", "round(measure(length, width, height).volume)")
+# %% 00.2 wrong: rounds the volume to three decimals | hint: Do not round the volume.
+replace("measure(length, width, height).volume", "round(measure(length, width, height).volume, 3)")
+# %% 00.2 wrong: rounds the sides to millimetres | hint: The numbers in the request differ
+replace("measure(length, width, height)", "measure(*(round(side, 3) for side in (length, width, height)))")
 # %% 00.2 wrong: returns the volume as a string | hint: the volume as a string
 replace("measure(length, width, height).volume", "str(measure(length, width, height).volume)")
 # %% 00.2 wrong: returns the area times the height | hint: Your function multiplied the area
@@ -141,6 +145,8 @@ replace("before, after, after - before - 1", "before, after")
 replace("    time.sleep(pause)\n", "")
 # %% 00.3 wrong: always uses the pause from the chapter | hint: The time between the two numbers
 replace("sleep(pause)", "sleep(2)")
+# %% 00.3 wrong: always pauses for 3 s | hint: The pause is too long
+replace("sleep(pause)", "sleep(3)")
 # %% 00.3 wrong: treats the pause as milliseconds | hint: The pause is too long
 replace("sleep(pause)", "sleep(1000 * pause)")
 # %% 00.3 wrong: returns messages instead of numbers | hint: Your function returned a whole
@@ -179,4 +185,13 @@ def count_missed(topic, pause):
     time.sleep(0.2)
     rospy.Subscriber(topic, UInt32, lambda message: numbers.append(message.data))
     time.sleep(pause)
+    return numbers[0], numbers[-1], numbers[-1] - numbers[0] - 1
+
+# %% 00.3 wrong: also receives numbers at the end of the pause | hint: Your function received numbers during
+def count_missed(topic, pause):
+    numbers = [rospy.wait_for_message(topic, UInt32).data]
+    time.sleep(0.8 * pause)
+    subscriber = rospy.Subscriber(topic, UInt32, lambda message: numbers.append(message.data))
+    time.sleep(0.2 * pause + 0.1)
+    subscriber.unregister()
     return numbers[0], numbers[-1], numbers[-1] - numbers[0] - 1

@@ -6,7 +6,10 @@ from math import prod
 from course_pkg.checking import ANYTHING, CheckContext, part
 from course_pkg.checking.assertions import Hints, same
 from course_pkg.checking.common_hints import NO_RETURN
-from course_pkg.checking.shared.geometry import boxes
+from course_pkg.checking.shared.geometry import boxes, is_rounded
+
+FLOAT32 = 1e-6  # A side that is stored as a float32 has a smaller relative error than this number.
+ROUNDED = "The returned volume has fewer digits than the volume in the response. Do not round the volume."
 
 
 @part(
@@ -25,11 +28,13 @@ def ask_a_question(context: CheckContext) -> None:
         name = f"/{context.random.word()}"
         response: dict[str, float] = {}
         server = context.serve(name, "course_pkg/geometry", lambda _, response=response: response)
-        first, *others = boxes(context, context.random.integer(2, 4))
+        _, *others = boxes(context, context.random.integer(2, 4))
+        # These sides have four decimals, so a function that sends rounded sides fails.
+        first = context.random.numbers(3, 0.5, 9.0, digits=4)
         for number, sides in enumerate([first, first, *others]):
             area, volume = (
-                whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
-            )  # A float32 stores the area and the volume exactly.
+                (2 * whole + 1) / 2048 for whole in context.random.integers(2, 1000, 9000)
+            )  # A float32 stores the area and the volume exactly. Each number has eleven decimals.
             response.update(area=area, volume=volume)
             before = len(server.requests)
             returned = context.run("ask_for_volume", name, *sides).returned()
@@ -56,14 +61,14 @@ def ask_a_question(context: CheckContext) -> None:
                     "the sides are sent in the order length, width, height",
                     expected=named,
                     actual=request,
-                    near=1e-4,
+                    near=FLOAT32,
                     hints=_other_sides(named),
                 )
             context.expect(
                 "the volume of the response is returned",
                 expected=volume,
                 actual=returned,
-                near=1e-6,
+                near=1e-9,
                 hints=_no_volume(area, volume, sides),
             )
 
@@ -79,7 +84,7 @@ def _other_sides(sides: dict[str, float]) -> Hints:
             ),
         ),
         (
-            lambda actual: not same([*sorted(sides.values())], sorted(actual.values()), near=1e-4),
+            lambda actual: not same([*sorted(sides.values())], sorted(actual.values()), near=FLOAT32),
             (
                 "The numbers in the request differ from the arguments of your function. Send the arguments "
                 "unchanged."
@@ -112,13 +117,8 @@ def _no_volume(area: float, volume: float, sides: Sequence[float]) -> Hints:
                 "different volume. Return the volume from the response of the server."
             ),
         ),
-        (
-            int(volume),
-            (
-                "Your function returned the volume without the digits after the decimal point. Do not "
-                "round the volume."
-            ),
-        ),
+        (int(volume), ROUNDED),
+        (is_rounded(volume), ROUNDED),
         (
             lambda actual: "volume" in actual,
             ("Your function returned the whole response. Return only the field `volume` of the response."),
