@@ -56,6 +56,13 @@ def measurer_command(room):
 def measurer_command(room):
     return f"rosrun course_pkg server; rosrun course_pkg server __ns:=/{room} __name:=measurer"
 
+# %% 01.1 wrong: starts a second node in a pipe | hint: Your string contains more than one command
+def measurer_command(room):
+    names = f"__ns:=/{room} __name:=measurer"
+    return f"rosrun course_pkg server {names} getGeometry:=measure | rosrun course_pkg pulse {names}"
+# %% 01.1 wrong: converts the name of the room to small letters | hint: In ROS, a name with a capital letter
+replace("{room} __name", "{room.lower()} __name")
+
 # %% 01.2 right: uses four remappings
 def viewer_command(arm):
     return (
@@ -101,6 +108,15 @@ def viewer_command(arm):
         f"rosrun topic_tools relay /screen/mirrored_joints /screen/{arm}/mirrored_joints __name:={arm}_out"
     )
 
+# %% 01.2 wrong: starts a second node in a pipe | hint: Your string contains more than one command
+def viewer_command(arm):
+    return (
+        f"rosrun course_pkg simulator __ns:=/screen __name:={arm}_viewer joint_states:=/{arm}/joint_states "
+        f"mirrored_joints:={arm}/mirrored_joints | rosrun course_pkg robot __ns:=/screen __name:={arm}_viewer"
+    )
+
+# %% 01.2 wrong: converts the name of the arm to small letters | hint: In ROS, a name with a capital letter
+replace("(arm):", "(arm):\n    arm = arm.lower()")
 # %% 01.2 wrong: gives mirrored_joints a global name | hint: The topic of the viewer
 replace("mirrored_joints:={arm}", "mirrored_joints:=/{arm}")
 # %% 01.2 wrong: changes the name of the topic mirrored_joints | hint: The name of the topic
@@ -154,11 +170,15 @@ replace("for service … return None", """service = sorted(rosservice.rosservice
 # %% 01.3 wrong: calls the name in a fixed namespace | hint: Your function called a service
 replace("service, geometry", '"/elsewhere/" + last, geometry')
 replace("\n    return None", "")
+# %% 01.3 wrong: ignores capital letters | hint: The name of the called service contains
+replace('split("/")[-1] == last', 'split("/")[-1].lower() == last.lower()')
 # %% 01.3 wrong: raises an error if there is no service | hint: Your search found no service
 replace("for service … return None", """found = [name for name in rosservice.get_service_list() if name.endswith("/" + last)]
     return rospy.ServiceProxy(found[0], geometry)(length, width, height).volume""")
 # %% 01.3 wrong: returns the name of the service | hint: Your function returned the name
 replace("return rospy.ServiceProxy(service, geometry)(length, width, height).volume\n    return None", "return service")
+# %% 01.3 wrong: stores the results | hint: The result has to depend
+replace("def ask", "import functools\n\n\n@functools.lru_cache\ndef ask")
 # %% 01.3 wrong: returns the whole response | hint: Your function returned the whole
 replace(".volume\n    return None", "")
 # %% 01.3 wrong: multiplies instead of calling | hint: Your function multiplied the sides
@@ -229,6 +249,10 @@ replace("dict(publishers).get(topic, [])", "{name for _, nodes in publishers for
 replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers if each.startswith(topic) for name in nodes}")
 # %% 01.4 wrong: also accepts topics whose names only end with the given name | hint: Compare the whole name of the topic
 replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers if each.endswith(topic) for name in nodes}")
+# %% 01.4 wrong: uses only the last part of the topic's name | hint: Compare the whole name of the topic
+replace("get(topic, [])", 'get("/" + topic.rpartition("/")[2], [])')
+# %% 01.4 wrong: stores the results | hint: A new publisher of the topic was started
+replace("def living", "import functools\n\n\n@functools.lru_cache\ndef living")
 # %% 01.4 wrong: raises an error for a topic without publishers | hint: A topic without a publisher
 replace("\n    names = dict(publishers).get(topic, [])", "")
 replace("names", "dict(publishers)[topic]")

@@ -158,33 +158,51 @@ def _in_a_random_order(context: CheckContext) -> None:
     """Call the student's function with new names; a function with a fixed list of results fails."""
     volumes: list[float | None] = [*context.random.numbers(context.random.integer(2, 4), 1.0, 9.0)]
     missing: list[float | None] = [None] * context.random.integer(1, 3)
-    similar = []
+    similar: list[ScriptedServer] = []
     for volume in context.random.shuffled([*volumes, *missing]):
         place, last = (context.random.word() for _ in range(2))
         *_, sides = boxes(context, 2)
-        similar.append(context.serve(f"/{place}/x{last}", GEOMETRY, lambda _: {"volume": 99.0}))
+        for other, wrong in ((f"x{last}", 99.0), (last.capitalize(), 98.0)):
+            name = f"/{place}/{other}"
+            similar.append(context.serve(name, GEOMETRY, lambda _, wrong=wrong: {"volume": wrong}))
         server = None
         if volume is not None:
             server = context.serve(f"/{place}/{last}", GEOMETRY, lambda _, volume=volume: {"volume": volume})
-        context.expect(
-            "the function returns None if there is no such service"
-            if volume is None
-            else "the volume comes from the right service",
-            expected=volume,
-            actual=context.run("ask_wherever", last, *sides, hints=_LOST + _NOBODY).returned(),
-            near=1e-6,
-            hints=[
-                (99.0, LOOKS_LIKE_IT),
-                (
-                    ANYTHING,
-                    "The result has to depend on the services that exist now, not on earlier calls of "
-                    "your function. Each time your function is called, get the list of services again.",
-                ),
-            ],
-        )
+        _responds(context, last, sides, volume)
         if server:
             _is_sent(context, server, sides)
+    # Call the function twice with the same arguments: the service is started between the two calls.
+    place, missed = (context.random.word() for _ in range(2))
+    later = context.random.number(1.0, 9.0)
+    _responds(context, missed, sides, None)
+    context.serve(f"/{place}/{missed}", GEOMETRY, lambda _: {"volume": later})
+    _responds(context, missed, sides, later)
     _only_this_one(context, similar)
+
+
+def _responds(context: CheckContext, last: str, sides: list[float], volume: float | None) -> None:
+    """Assert that the student's function returns `volume`, or None if the service does not exist."""
+    context.expect(
+        "the function returns None if there is no such service"
+        if volume is None
+        else "the volume comes from the right service",
+        expected=volume,
+        actual=context.run("ask_wherever", last, *sides, hints=_LOST + _NOBODY).returned(),
+        near=1e-6,
+        hints=[
+            (99.0, LOOKS_LIKE_IT),
+            (
+                98.0,
+                "The name of the called service contains a capital letter, but the given text does not. In "
+                "ROS, these are two different names.",
+            ),
+            (
+                ANYTHING,
+                "The result has to depend on the services that exist now, not on earlier calls of "
+                "your function. Each time your function is called, get the list of services again.",
+            ),
+        ],
+    )
 
 
 _LOST = [
@@ -221,8 +239,9 @@ def who_really_publishes(context: CheckContext) -> None:
 
     At the end, call the student's function with topics that no running node publishes.
     """
-    topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
-    names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(9)]
+    place, last, other, grave = (f"/{context.random.word()}" for _ in range(4))
+    topic = f"{place}{last}"
+    names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(11)]
     # In the order of registration and in the order of names, a dead node comes between running nodes. A loop
     # that ends at a dead node therefore misses some running nodes.
     living, dead = context.random.shuffled(sorted(names[:5])[::2]), sorted(names[:5])[1::2]
@@ -234,6 +253,7 @@ def who_really_publishes(context: CheckContext) -> None:
     context.fake_node(names[6], grave, NUMBER, alive=False)
     context.fake_node(names[7], f"{topic}_2", NUMBER)
     context.fake_node(names[8], f"/left{topic}", NUMBER)
+    context.fake_node(names[9], last, NUMBER)
     context.subscribe(topic, NUMBER)
     subscribers = {name for each in context.look().topics if each.name == topic for name in each.subscribers}
     for node in nodes:
@@ -265,7 +285,7 @@ def who_really_publishes(context: CheckContext) -> None:
                 ),
             ),
             (
-                lambda actual: {names[5], names[7], names[8]} & set(actual),
+                lambda actual: {names[5], *names[7:10]} & set(actual),
                 (
                     "Your list contains a node that publishes on a different topic. Compare the "
                     "whole name of the topic."
@@ -315,6 +335,16 @@ def who_really_publishes(context: CheckContext) -> None:
         expected=[[], []],
         actual=[_living(context, grave), _living(context, f"/{context.random.word()}")],
         hints="Return an empty list if no running node publishes the topic.",
+    )
+    context.fake_node(names[10], grave, NUMBER)
+    context.expect(
+        "the list contains the running publishers of a topic, and it is sorted",
+        expected=[names[10]],
+        actual=_living(context, grave),
+        hints=(
+            "A new publisher of the topic was started after the previous call, and it is missing in your "
+            "list. Each time your function is called, ask the master for the publishers again."
+        ),
     )
 
 

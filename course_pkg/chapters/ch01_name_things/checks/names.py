@@ -7,8 +7,10 @@ import time
 from contextlib import ExitStack, suppress
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Condition
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.plain_values import Value
 from course_pkg.checking.shared.command_line import OPERATORS, commands_of
 from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.ros.protocol.snapshot import ServiceSeen, Snapshot
@@ -21,6 +23,10 @@ START = 20.0  # A program may take up to this time in s to start; usually, it ta
 WHERE = "the service is called measure, and it is in the namespace of the room"
 OWN_SERVICE = "Start a server that offers the service `measure` in the namespace of the room."
 OWN_NODE = "Give the server's node the name `measurer`, and start this node in the namespace of the room."
+CAPITALS = (
+    "In ROS, a name with a capital letter differs from the same name with a small letter. Use the argument "
+    "of your function without any change."
+)
 VIEWER = (
     "Give the viewer's node the name ARM_viewer in the namespace /screen, where ARM is the name of the arm."
 )
@@ -44,7 +50,7 @@ PUBLISHES = (
 )
 def a_measurer_for_each_room(context: CheckContext) -> None:
     """Run the student's commands for two rooms, and call the servers that the commands start."""
-    rooms = [context.random.word() for _ in range(2)]
+    rooms = _names(context, "Room")
     with ExitStack() as running:
         servers, nodes = {}, set()
         for room in rooms:
@@ -88,10 +94,19 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
 def a_viewer_for_each_arm(context: CheckContext) -> None:
     """Run the student's commands for two arms, and check the names of the nodes and of their topics."""
     with ExitStack() as running:
-        for arm in (context.random.word() for _ in range(2)):
+        for arm in _names(context, "Arm"):
             before = {node.name for node in context.look().nodes}
             viewer, words = _start(context, running, "viewer_command", arm, "simulator")
             _views(context, viewer, words, arm, before)
+
+
+def _names(context: CheckContext, ending: str) -> list[str]:
+    """Return two random names in a random order; one of them ends with `ending` and a digit.
+
+    The capital letter in `ending` shows whether the student's command changes the name.
+    """
+    first, second = (context.random.word() for _ in range(2))
+    return context.random.shuffled([first, f"{second}{ending}{context.random.integer(1, 9)}"])
 
 
 def _start(
@@ -102,7 +117,8 @@ def _start(
     Return the running command and its words. The command ends when the ExitStack `running` is closed.
     """
     command = context.run(function, name).returned()
-    words = next(iter(commands_of(command)), [])
+    commands = commands_of(command)
+    words = commands[0] if len(commands) == 1 else []
     context.require(
         "the result is a command for rosrun",
         holds=words[:3] == ["rosrun", "course_pkg", program],
@@ -193,6 +209,8 @@ def _astray(room: str, found: str, node: str) -> str:
 
     `node` is the name of the service's node.
     """
+    if found.lower() == f"/{room}/measure".lower():
+        return CAPITALS
     if found == "/measure" and node.startswith(f"/{room}/"):
         return (
             "The node is in the namespace of the room, but the name of the service is /measure for "
@@ -238,6 +256,7 @@ def _views(context: CheckContext, viewer: Running, words: list[str], arm: str, b
             expected=f"/screen/{arm}_viewer",
             actual=name or "no new node that subscribes to a topic",
             hints=[
+                _in_small_letters(f"/screen/{arm}_viewer"),
                 (
                     matches("simulator$"),
                     "The node still has its default name. Choose the name of the node with `__name:=…`.",
@@ -261,6 +280,7 @@ def _views(context: CheckContext, viewer: Running, words: list[str], arm: str, b
             actual=[topic.name for topic in seen.topics if name in topic.subscribers],
             hints=[
                 *_misspelt("joint_states", words),
+                _in_small_letters([f"/{arm}/joint_states"]),
                 (
                     ("/screen/joint_states",),
                     "The viewer subscribes to a topic in its own namespace, but no arm publishes on "
@@ -287,6 +307,7 @@ def _views(context: CheckContext, viewer: Running, words: list[str], arm: str, b
             actual=[topic for topic in published if topic != "/rosout" and not topic.endswith("/pictures")],
             hints=[
                 *_misspelt("mirrored_joints", words),
+                _in_small_letters([f"/screen/{arm}/mirrored_joints"]),
                 (
                     ("/screen/mirrored_joints",),
                     "The viewers of all arms publish on the same topic. Also remap `mirrored_joints`.",
@@ -305,6 +326,11 @@ def _views(context: CheckContext, viewer: Running, words: list[str], arm: str, b
                 ),
             ],
         )
+
+
+def _in_small_letters(expected: Value) -> tuple[Condition, str]:
+    """Return a hint for a value that differs from `expected` only in its capital letters."""
+    return (lambda actual: str(actual).lower() == str(expected).lower()), CAPITALS
 
 
 def _misspelt(topic: str, words: list[str]) -> list[tuple[tuple[str], str]]:
