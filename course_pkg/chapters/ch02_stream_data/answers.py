@@ -71,6 +71,11 @@ def count_aloud(topic, rate, count):
 
 # %% 02.1 wrong: publishes at half of the rate | hint: The rate is too low
 replace("pace.sleep()", "pace.sleep()\n        pace.sleep()")
+# %% 02.1 wrong: publishes at two thirds of the rate | hint: The rate is too low
+replace("\n    pace = rospy.Rate(rate)", "")
+replace("pace.sleep()", "time.sleep(1.5 / rate)")
+# %% 02.1 wrong: notices only a subscriber that connects in the first half second | hint: Check every few milliseconds whether a
+replace("connections, 2.0)", "connections, 0.5)\n    if not publisher.get_num_connections():\n        time.sleep(1.5)")
 # %% 02.1 wrong: publishes in groups of five | hint: The numbers arrive in groups
 replace("10", "1000")
 replace("\n    pace = rospy.Rate(rate)", "")
@@ -139,6 +144,11 @@ replace("[-angle for angle in message.position]\n        image.velocity = [-spee
 # %% 02.2 wrong: uses absolute values | hint: A negative number has to become positive
 replace("-angle", "abs(angle)")
 replace("-speed", "abs(speed)")
+# %% 02.2 wrong: brings each angle into the range from -π to π | hint: Your callback brought a number into
+replace("[-angle", "[(math.pi - angle) % (2 * math.pi) - math.pi")
+replace("def start_mirror", "import math\n\n\ndef start_mirror")
+# %% 02.2 wrong: keeps the publisher in a global variable | hint: The check started two mirrors
+replace("    publisher = rospy", "    global publisher\n    publisher = rospy")
 # %% 02.2 wrong: uses a new header | hint: The time stamp is 0
 replace("header=message.header, name", "name")
 # %% 02.2 wrong: uses the current time as the time stamp | hint: The time stamp differs from
@@ -252,6 +262,10 @@ replace("self.publisher.publish(value)", "wait_until(self.publisher.get_num_conn
 replace("self.publisher.publish(value)", "wait_until(self.publisher.get_num_connections, 0.5)\n            self.publisher.publish(value)")
 # %% 02.3 wrong: pauses in set() for every value except 0 | hint: Do not wait in set().
 replace("self.value = value", "self.value = value\n            time.sleep(0.5 if value else 0)")
+# %% 02.3 wrong: pauses in set() if the value has not changed | hint: The value was the same as in the previous call
+replace("if value != self.value:", "if value == self.value:\n            time.sleep(1)\n        else:")
+# %% 02.3 wrong: limits the value to 100 | hint: The published value is not
+replace("if value !=", "value = min(value, 100.0)\n        if value !=")
 # %% 02.3 wrong: ignores very small changes | hint: A changed value was not published
 replace("value != self.value", "self.value is None or abs(value - self.value) > 1e-9")
 # %% 02.3 wrong: publishes the value in each call | hint: The same value was published again.
@@ -353,7 +367,7 @@ replace("lambda message: draw(message.data)", "on_angle")
 replace("lambda message: draw(message.data)", "draw")
 # %% 02.4 wrong: passes the whole message to prepare | hint: prepare() got the whole message. Pass
 replace("lambda message: prepare(message.data)", "prepare")
-# %% 02.4 wrong: draws only every sixteenth angle | hint: The last angle was not drawn.
+# %% 02.4 wrong: draws only every sixteenth angle | hint: The last angle was 0, and
 based_on("starts a thread for each angle")
 replace("(angles, draw, orders, prepare):", "(angles, draw, orders, prepare):\n    count = [0]\n")
 replace("threading.Thread(target=draw, args=[message.data], daemon=True).start()", """count[0] += 1
@@ -367,6 +381,13 @@ replace("return [ … ]", """first = rospy.Subscriber(angles, Float64, on_angle,
     return [first, rospy.Subscriber(orders, UInt32, lambda message: prepare(message.data))]""")
 # %% 02.4 wrong: pauses after each drawing | hint: draw() was not called often enough
 replace("lambda message: draw(message.data)", "lambda message: (draw(message.data), time.sleep(0.4))")
+# %% 02.4 wrong: ignores the angle 0 | hint: always draw the newest angle, even if
+replace("draw(message.data)", "message.data and draw(message.data)")
+# %% 02.4 wrong: ignores the order 0 | hint: An order has the number 0, and it was not prepared
+replace("prepare(message.data)", "message.data and prepare(message.data)")
+# %% 02.4 wrong: prepares each number only once | hint: Two orders contained the same number
+replace("return [", "numbers = []\n\n    def on_order(message):\n        if message.data not in numbers:\n            numbers.append(message.data)\n            prepare(message.data)\n\n    return [")
+replace("lambda message: prepare(message.data)", "on_order")
 # %% 02.4 wrong: does not return | hint: The function does not return. Return
 replace("return [", "subscribers = [")
 replace("    ]", "    ]\n    rospy.spin()\n    return subscribers")
@@ -474,6 +495,8 @@ replace('\n        return "running" if time.monotonic() - self.last <= 1.0 else 
         if time.monotonic() - self.last > 1:
             self.ended = True
         return "ended" if self.ended else "running"''')
+# %% 02.5 wrong: waits in state() for another message | hint: Do not wait for a
+replace('return "running" if', 'time.sleep(0.3 if 0.3 < time.monotonic() - self.last < 1.0 else 0.0)\n        return "running" if')
 # %% 02.5 wrong: returns "waiting" after the stream has ended | hint: Some messages have arrived, but no message
 replace('"ended"', '"waiting"')
 # %% 02.5 wrong: calculates with None before the first message | hint: Before the first message, no time
@@ -564,3 +587,24 @@ replace("return rospy", "rospy")
 replace("show)", "show)\n    return publisher")
 # %% 02.2 wrong: returns another subscriber | hint: Return the rospy.Subscriber object. The
 replace("return rospy.Subscriber(source, JointState, show)", "rospy.Subscriber(source, JointState, show)\n    return rospy.Subscriber(source, JointState, str)")
+
+# %% 02.5 wrong: finds the end of a stream only once | hint: Find the end of every stream
+class Watch:
+    def __init__(self, topic):
+        self._state = "waiting"
+        self.last = 0.0
+        self.subscriber = rospy.Subscriber(topic, UInt32, self.receive)
+
+    def receive(self, message):
+        self.last = time.monotonic()
+        if self._state == "waiting":
+            threading.Thread(target=self.observe, daemon=True).start()
+        self._state = "running"
+
+    def observe(self):
+        while time.monotonic() - self.last <= 1.0:
+            time.sleep(0.01)
+        self._state = "ended"
+
+    def state(self):
+        return self._state

@@ -33,8 +33,9 @@ def joint_states(context: CheckContext, count: int) -> list[Fields]:
 def _of_both_signs(context: CheckContext, count: int) -> list[float]:
     """Return `count` random numbers: two are positive, and the others are negative.
 
-    The numbers have both signs, so that each wrong sign in a mirror image is visible.
+    The numbers have both signs, so that each wrong sign in a mirror image is visible. Some numbers are
+    outside of the range from -π to π.
     """
     return context.random.shuffled(
-        [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(count - 2, -3.0, -0.1)]
+        [*context.random.numbers(2, 0.1, 9.0), *context.random.numbers(count - 2, -9.0, -0.1)]
     )

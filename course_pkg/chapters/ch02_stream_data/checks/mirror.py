@@ -1,13 +1,14 @@
 """02.2: a node that receives joint states, and publishes the mirror image of each joint state."""
 
+import math
 import statistics
 from collections.abc import Callable, Sequence
 
 from course_pkg.chapters.ch02_stream_data.checks.joint_states import JOINTS, joint_states
 from course_pkg.chapters.ch02_stream_data.checks.subscribers import NO_SUBSCRIBER, running_subscribers
-from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import first_unlike
-from course_pkg.checking.peers.subscription import Arrival
+from course_pkg.checking.peers.subscription import Arrival, Subscription
 from course_pkg.checking.plain_values import Fields
 from course_pkg.ros.protocol.json_channel import Json
 
@@ -56,8 +57,8 @@ MIRRORED = (
 )
 def a_mirror(context: CheckContext) -> None:
     """Publish random joint states, and compare each joint state with its mirrored message."""
-    source, target = (f"/{context.random.word()}" for _ in range(2))
-    subscription = context.subscribe(target, JOINTS)
+    source, target, other_source, other_target = (f"/{context.random.word()}" for _ in range(4))
+    subscription, other = (context.subscribe(topic, JOINTS) for topic in (target, other_target))
     with running_subscribers(
         context, "start_mirror", source, target, worded="start_mirror(source, target)", topics=[source]
     ):
@@ -70,13 +71,17 @@ def a_mirror(context: CheckContext) -> None:
                 )
             ]
         )
+        begin = ("begin", Its("start_mirror"), other_source, other_target)
+        context.run(*begin, worded="start_mirror(source, target)").returned()
         context.prepare(WITNESS)
         context.run("listen_too", source, worded="start_mirror(source, target)")
         messages = joint_states(context, 40)
         publisher = context.publish(source, JOINTS, messages, every=0.025, once=True)
         publisher.listened()
         publisher.finish(10.0)
-        _mirrors(context, messages, subscription.wait(len(messages), within=1.5))
+        heard = subscription.wait(len(messages), within=1.5)
+        _apart(context, other)
+        _mirrors(context, messages, heard)
         subscription.during(0.3)
         context.expect(
             "the mirror publishes one message for each received message",
@@ -106,6 +111,23 @@ def a_mirror(context: CheckContext) -> None:
             expected="no mirrored message after the check has called unregister() of the subscriber",
             actual=f"{subscription.count - before} messages",
             hint=NO_SUBSCRIBER,
+        )
+
+
+def _apart(context: CheckContext, other: Subscription) -> None:
+    """Assert that the second mirror, whose source has no publisher, has published nothing.
+
+    `other` is the check's subscription to the target of the second mirror.
+    """
+    if other.count:
+        context.fail(
+            "two mirrors are independent of each other",
+            expected="messages only on the target of the first mirror",
+            actual=f"{other.count} messages on the target of the second mirror",
+            hint=(
+                "The check started two mirrors, and the messages of the first mirror were published on the "
+                "target of the second mirror. Do not store the publisher in a global variable."
+            ),
         )
 
 
@@ -251,9 +273,22 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
                         "message. For each message, create a new list with a loop over all numbers."
                     ),
                 ),
+                (
+                    _turned(values),
+                    "Your callback brought a number into the range from -π to π. A mirrored number may be "
+                    "outside of this range.",
+                ),
                 (ANYTHING, "Change only the sign of each number."),
             ],
         )
+
+
+def _turned(values: Sequence[float]) -> Callable[[Sequence[float]], bool]:
+    """Return a condition for mirrored numbers of which one differs by 2π from the right number."""
+    return lambda actual: any(
+        math.isclose(abs(one + value), 2 * math.pi, rel_tol=1e-6)
+        for one, value in zip(actual, values, strict=True)
+    )
 
 
 def _of_another_length(values: Sequence[float]) -> Callable[[Sequence[float]], bool]:

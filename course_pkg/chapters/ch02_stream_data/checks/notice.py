@@ -43,7 +43,8 @@ def a_notice(context: CheckContext) -> None:
     """
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
-    earlier, first, third = context.random.numbers(3, 1.0, 90.0)
+    earlier, first = context.random.numbers(2, 1.0, 90.0)
+    third = context.random.number(101.0, 9000.0)  # The unit of the charge may be different from percent.
     second = math.nextafter(first, 100.0)  # Even the smallest difference counts as a change of the value.
     for name in (zero, topic, twin):
         context.run("create", Its("Notice"), name, worded="Notice(topic)").returned()
@@ -61,10 +62,17 @@ def a_notice(context: CheckContext) -> None:
     _receives(context, listener, [0.0], "the first value is published, even if it is 0")
     _receives(context, _subscribed(context, twin), [first], LATE)
     context.fulfilled(LATCHED)
-    _set(context, zero, 0.0)
+    took = [_set(context, zero, 0.0)]
     _receives(context, listener, [0.0], "a value that stays the same is not published again")
-    _set(context, topic, first)
+    took.append(_set(context, topic, first))
     _receives(context, subscriber, [first], "a value that stays the same is not published again")
+    if min(took) > AT_ONCE:
+        context.fail(
+            "set() returns immediately if the value stays the same",
+            expected=f"set() returns within {AT_ONCE} s",
+            actual=f"set() returned after {min(took):.1f} s",
+            hint="The value was the same as in the previous call, but set() waited. Return without a pause.",
+        )
     took = [_set(context, topic, second)]
     _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
     took.append(_set(context, topic, third))

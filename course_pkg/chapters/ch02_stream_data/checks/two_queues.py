@@ -58,8 +58,12 @@ NEWEST, ALL_ORDERS = (
 def two_queues(context: CheckContext) -> None:
     """Publish angles faster than draw() can draw them, and many orders for prepare() within a short time."""
     topics = [f"/{context.random.word()}" for _ in range(2)]
-    angles = context.random.numbers(ANGLES, -900.0, 900.0)
-    numbers = context.random.integers(ORDERS, 1000, 9999)
+    # The last angle and one of the orders are 0, which Python treats as false.
+    negative, positive = ANGLES // 2, ANGLES - ANGLES // 2 - 1
+    angles = [*context.random.numbers(negative, -900.0, -1.0), *context.random.numbers(positive, 1.0, 900.0)]
+    angles = [*context.random.shuffled(angles), 0.0]
+    numbers = context.random.integers(ORDERS - 2, 1000, 9999)
+    numbers = context.random.shuffled([*numbers, numbers[0], 0])  # Two orders contain the same number.
     draw, prepare = Work(DRAWING), Work(PREPARING)
     context.place("checked_draw", draw)
     context.place("checked_prepare", prepare)
@@ -164,8 +168,8 @@ def _drawn(
         expected=list(sent)[-1],
         actual=angles[-1],
         hints=(
-            "The last angle was not drawn. Do not skip a fixed number of angles: always draw the "
-            "newest angle."
+            "The last angle was 0, and it was not drawn. Do not skip a fixed number of angles: always draw "
+            "the newest angle, even if it is 0."
         ),
     )
 
@@ -182,16 +186,26 @@ def _prepared(context: CheckContext, at_once: int, prepared: list[Value], number
                 "prepare() got the whole message. Pass only the number, which is in the field `data`.",
             ),
             (
-                lambda actual: len(set(actual)) < len(actual),
+                lambda actual: any(actual.count(number) > numbers.count(number) for number in numbers),
                 "An order was prepared twice. Call prepare() once for each message.",
             ),
             (
-                lambda actual: set(actual) == set(numbers),
+                [number for number in numbers if number],
+                "An order has the number 0, and it was not prepared. Call prepare() for each message, even "
+                "if the number is 0.",
+            ),
+            (
+                lambda actual: actual == list(dict.fromkeys(numbers)),
+                "Two orders contained the same number, and only one of them was prepared. Call prepare() for "
+                "each message.",
+            ),
+            (
+                lambda actual: sorted(actual) == sorted(numbers),
                 "The orders were prepared in the wrong sequence. Prepare one order after the "
                 "other, in the sequence of arrival.",
             ),
             (
-                lambda actual: set(actual) < set(numbers),
+                lambda actual: set(actual) <= set(numbers),
                 "Some orders were lost. Up to twenty orders can wait at the same time, so do not "
                 "limit the queue for orders.",
             ),

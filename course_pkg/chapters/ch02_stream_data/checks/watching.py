@@ -79,9 +79,11 @@ def watch_a_stream(context: CheckContext) -> None:
         )
         _says(context, topic, "two Watch objects are independent of each other", "waiting", _APART)
         _runs(context, topic)
-        _speaks(context, topic)
+        again = _speaks(context, topic)
         time.sleep(0.5)
         _says(context, topic, 'when messages arrive again, the state is "running" again', "running", _WHILE)
+        again.stop()
+        _ends(context, topic, again, _SECOND_END)
     finally:
         context.run("end")
 
@@ -111,6 +113,7 @@ def _runs(context: CheckContext, topic: str) -> None:
         '0.5 s after the last message, the state is "running"',
         "running",
         _PAUSE,
+        times=2,
         before=end,
     )
     time.sleep(max(end - 0.1 - time.monotonic(), 0.0))
@@ -122,12 +125,18 @@ def _runs(context: CheckContext, topic: str) -> None:
             actual="ended",
             hint=TOO_EARLY,
         )
+    _ends(context, topic, publisher, _END)
+
+
+def _ends(context: CheckContext, topic: str, publisher: Publisher, hints: Hints) -> None:
+    """Assert that the state is "ended" after the publisher has published nothing for more than 1 s."""
+    end = publisher.sent[-1] + LIMIT
     time.sleep(max(end + 0.1 - time.monotonic(), 0.0))
     # On a busy machine, the student's Watch object may receive the last message late, so the check waits
     # until the state changes.
     wait_until(lambda: _asked(context, topic).returned() != "running", at_this_load(0.1))
     ended = 'more than 1 s after the last message, the state is "ended"'
-    _says(context, topic, ended, "ended", _END, times=context.random.integer(3, 6))
+    _says(context, topic, ended, "ended", hints, times=context.random.integer(3, 6))
 
 
 def _asked(context: CheckContext, topic: str) -> Result:
@@ -251,5 +260,12 @@ _END: Hints = [
     (
         "waiting",
         'Some messages have arrived, but no message arrives any more. Return "ended", not "waiting".',
+    ),
+]
+_SECOND_END: Hints = [
+    (
+        ANYTHING,
+        "The state was correct at the end of the first stream, but it is wrong at the end of the second "
+        "stream. Find the end of every stream.",
     ),
 ]
