@@ -1,8 +1,8 @@
 """The checks: each check is a separate node that examines a student's work from outside the kernel.
 
 A notebook calls `check("05.1")`. An author declares a check with the decorator `part`; the check receives a
-`CheckContext`. The function `matches` returns a condition for a hint, and the condition `ANYTHING` matches
-every value.
+`CheckContext`. The function `matches` returns a condition for a hint. The condition `ANYTHING` matches every
+value.
 """
 
 from typing import TYPE_CHECKING

@@ -14,8 +14,8 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.types import Plain
 
 # A condition is a wrong value, a pattern made by `matches`, or a function that returns whether the actual
-# value matches. If such a function raises an exception, for example because the value has another type, the
-# value does not match.
+# value matches. If a function raises an exception, for example because the value has another type, the value
+# does not match.
 Condition: TypeAlias = "Plain | bytes | re.Pattern[str] | Callable[[Any], object]"
 ANYTHING: Condition = re.compile("")  # This condition matches every value.
 # Hints are either one hint for every wrong value, or a list of pairs (condition, hint). In a list, the first
@@ -48,7 +48,7 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
     if isinstance(expected, bool) or isinstance(actual, bool):
         return expected is actual
     if isinstance(expected, (int, float)) and isinstance(actual, (int, float)):
-        # If an integer is too large for a float, only an equal number is accepted.
+        # An integer that is too large for a float equals only the same integer.
         with suppress(OverflowError):
             return expected == actual or math.isclose(expected, actual, rel_tol=near, abs_tol=near)
         return False
@@ -56,7 +56,7 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
 
 
 def first_unlike(expected: Iterable[Json], actual: Iterable[Json], near: float) -> tuple[Json, Json]:
-    """Compare two lists item by item; return the first pair of unequal items, or ({}, {}) if there is none.
+    """Return the first pair of unequal items of two lists, or ({}, {}) if there is none.
 
     A report shows only the returned pair, not all items.
     """
@@ -77,7 +77,7 @@ def _fits(condition: Condition, actual: Json, near: float) -> bool:
     if callable(condition):
         try:
             return bool(condition(actual))
-        # The function may raise an error because it expects a value of another type.
+        # The student's value can have a type that the function does not expect.
         except (TypeError, ValueError, LookupError, AttributeError):
             return False
     return same(plain(condition), actual, near)
@@ -87,11 +87,12 @@ class Results:
     """The assertions that were checked, and the last call that the check made."""
 
     def __init__(self) -> None:
-        # This function returns the check's last call as text. The function is called only if a check fails.
+        # This function returns the check's last call as text. It is called only if a check fails. The
+        # function is called only if a check fails.
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
         self.marked: set[str] = set()  # The check has marked these goals as fulfilled.
-        # The keys are the goals that were examined separately; a value is true if the goal is fulfilled.
+        # The keys are the goals that `goal` blocks have examined; a value is true if the goal is fulfilled.
         self._goals: dict[str, bool] = {}
 
     @property
@@ -106,24 +107,24 @@ class Results:
 
     @property
     def kept_goals(self) -> set[str]:
-        """The goals that are fulfilled even if the check ends before its last assertion."""
+        """The fulfilled goals if the check ends before its last assertion."""
         return self.marked - self.failed_goals
 
     @property
     def fulfilled_goals(self) -> set[str]:
-        """The goals that are fulfilled if the check runs completely."""
+        """The fulfilled goals if the check runs completely."""
         return (self.marked | self._goals.keys()) - self.failed_goals
 
     def goal_ended(self, goal: str, *, fulfilled: bool) -> None:
-        """Record whether the assertions of a goal hold; a goal that has failed once remains failed."""
+        """Record whether the assertions of a goal hold; after one failure, the goal remains failed."""
         self._goals[goal] = fulfilled and self._goals.get(goal, True)
 
     def passes(self, assertion: str) -> None:
-        """Record that `assertion` holds; the same assertion may still fail later."""
+        """Record that `assertion` holds; it can fail in a later call."""
         self._assertions.setdefault(assertion, Assertion(assertion, holds=True))
 
     def fails(self, assertion: str, *, expected: str = "", actual: str = "", hint: str = "") -> NoReturn:
-        """Record that `assertion` does not hold, and raise AssertionFailed, which ends the check or the goal.
+        """Record that `assertion` does not hold, and raise AssertionFailed to end the check or the goal.
 
         If an assertion fails several times, the report shows the first failure.
         """

@@ -29,8 +29,8 @@ The requests, their arguments, and the fields of the replies:
     programs process                      programs (the SHA-256 sum and the name of each file that the
                                           processes of the command execute)
 
-The connection is closed after a line that is too long, is not a JSON object, or replies to another request.
-The check runner then reports that the check has failed.
+After a line that is too long, is not a JSON object, or replies to another request, the channel closes the
+connection. The check runner then reports that the check has failed.
 """
 
 from __future__ import annotations
@@ -56,7 +56,8 @@ class Channel(JsonChannel):
     def __init__(self, sock: socket.socket) -> None:
         super().__init__(sock, LIMIT)
         self._asked = 0
-        # The thread of a check's server may send a request while the thread of the check waits.
+        # Two threads of the check runner can send requests: the thread of the check, and the thread of its
+        # server.
         self._asking = threading.Lock()
 
     def ask(self, do: str, *, timeout: float, **arguments: Plain) -> dict[str, Json]:

@@ -74,8 +74,8 @@ class CheckContext:
 
         Call this method after the assertions of the goal: if an assertion fails, the run ends before this
         call. Call this method for the main goal of a part first, so that a program that does nothing earns no
-        points for a later goal. If a `goal` block has also examined this goal, the goal is fulfilled only if
-        the assertions of the block hold, too.
+        points for a later goal. If a `goal` block has also examined this goal, the assertions of the block
+        must hold, too.
         """
         self._results.marked.add(goal)
 
@@ -252,9 +252,10 @@ class CheckContext:
     def fake_node(
         self, name: str, topic: str, kind: str, *, alive: bool = True, reused: bool = False
     ) -> FakeNode:
-        """Register a fake node, which has no process, as a publisher of the topic `topic`.
+        """Register a node without a process as a publisher of the topic `topic`.
 
-        If `alive` is true, the node responds to a ping. If `alive` is false, the node seems to be killed.
+        If `alive` is true, the node responds to a ping; otherwise, it looks like a killed node. If `alive` is
+        false, the node seems to be killed.
         """
         return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive, reused=reused))
 
@@ -269,7 +270,7 @@ class CheckContext:
         return self._open.enter_context(Subscription(self._results, self._node, topic, cls, label))
 
     def _label(self, topic: str) -> str:
-        """Return the text that assertions show for the topic; the text is the same in every run."""
+        """Return the name of the topic for titles of assertions; it is the same in every run."""
         return "the topic" if self.random.made(topic) else topic
 
     # -- the student's functions, values and files
@@ -307,8 +308,8 @@ class CheckContext:
         """Run the check's own `code` in the kernel, separately from the student's names.
 
         The names that this code defines can be arguments of the student's function, such as `service` in
-        `context.run("close", Its("service"))`. The student's code can modify these objects, so store the
-        check's data in an object for which place() defines a proxy. Raises CheckError if the code fails.
+        `context.run("close", Its("service"))`. The student's code can modify these objects. Store the check's
+        data in an object that place() makes available. Raises CheckError if the code fails.
         """
         error = self._channel.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
         if error:
@@ -320,8 +321,8 @@ class CheckContext:
 
         The proxy has the methods and attributes that the class of `item` declares with `@remote`. The proxy
         can be an argument of the student's function, such as in `context.run("move", Its("shelf"))`. The code
-        of `prepare` can also use the proxy. If the check must be able to trust data, store them in the object
-        `item`, not in variables of the code of `prepare`.
+        of `prepare` can also use the proxy. If the student's code must not change some data, store them in
+        the object `item`, not in variables of the code of `prepare`.
         """
         if self._placed is None:
             self._placed = self._open.enter_context(PlacedObjects())
@@ -346,8 +347,8 @@ class CheckContext:
     def folder(self, *, files: Sequence[str] = (), texts: Mapping[str, str] | None = None) -> Folder:
         """Return a new folder, on the kernel's computer, with copies of the student's files and folders.
 
-        `texts` maps the path of each of the check's own files to its content. The check's own files replace
-        copies with the same path.
+        `texts` maps the path of each of the check's own files to its content. If a copy has the same path,
+        the check's own file replaces it.
         """
         return Folder(self._channel, files, texts or {}, self.under_way)
 
@@ -402,7 +403,7 @@ class CheckContext:
 
 @dataclass(frozen=True)
 class Its:
-    """An argument for `CheckContext.run` that stands for the value of `name` in the kernel."""
+    """An argument for `CheckContext.run`: it stands for the value of `name` in the kernel."""
 
     name: str
 

@@ -1,7 +1,7 @@
 """Pack the source of checks for the students' edition.
 
 The source of a check contains answers, such as expected values and files of a package. `check()` needs this
-source on the student's computer. In packed source, students do not find an answer by accident or with a
+source on the student's computer. Packing hides the answers: students do not find them by accident or with a
 search. Students can still unpack the source deliberately.
 """
 

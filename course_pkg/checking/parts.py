@@ -32,14 +32,14 @@ PACKAGED = re.compile(r"file:src/(?P<package>[^/]+)/(?P<path>.+)")
 class Part:
     """One graded part of a chapter; calling it examines the student's work.
 
-    `needs` contains the names that the student has to define. If a name is missing or its value is still
-    `...`, the part counts as not attempted. Names that are joined with `|` are alternatives: one of them is
-    enough.
+    `needs` contains the names that the student has to define. If one of these names is missing or its value
+    is still `...`, the part counts as not attempted. The character `|` joins alternative names: one of them
+    is enough.
 
     `deadline` is the time limit of the whole check in s. If the student has to repair a file, `start` is the
     `%%writefile` cell with the wrong file. Otherwise, `start` is empty. The points are divided among `goals`.
     A part without goals gives either all of its points or no points. `runs` are the programs of the course
-    that the part uses, such as "server"; during grading, all other programs of the course are hidden.
+    that the part uses, such as "server". During grading, all other programs of the course are hidden.
     """
 
     check: str
@@ -94,10 +94,10 @@ def part(
 ) -> Callable[[Callable[[CheckContext], None]], Part]:
     """Return a decorator that declares the check of the part with the id `check`, such as "05.1".
 
-    `goals` are the goals of the part: the points are divided equally for a sequence, and by weight for a
-    mapping. The check marks a goal with `context.fulfilled` or `context.goal`. The last goal need not be
+    `goals` are the goals of the part. A sequence divides the points equally; a mapping contains a weight for
+    each goal. The check marks a goal with `context.fulfilled` or `context.goal`. The last goal need not be
     marked: it is fulfilled if the check passes. Without goals, a part earns its points only if the check
-    passes. `runs` are the programs of the course that the part, or a cell before it, starts.
+    passes. `runs` are the programs of the course that the part or an earlier cell starts.
     """
     divided = goals_of(check, points, goals)
 
@@ -141,7 +141,7 @@ def folders_for(chapter: str) -> list[Path]:
 
 
 def _imported(folder: Path) -> set[str]:
-    """Return the numbers of the chapters from which the modules in the folder `folder` import."""
+    """Return the numbers of the chapters that the modules in the folder `folder` import."""
     texts = (path.read_text("utf-8") for path in folder.rglob("*.py"))
     return {number for text in texts for number in IMPORTED.findall(text)}
 

@@ -1,4 +1,4 @@
-"""Random inputs for a check: they differ in each run, but are the same for the same seed."""
+"""Random inputs for a check; the same seed produces the same inputs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Item = TypeVar("Item")
 
 
 class RandomInputs:
-    """The random inputs of a check; the same seed produces the same inputs again."""
+    """The random inputs of one run of a check."""
 
     def __init__(self, seed: str) -> None:
         self._random = random.Random(seed)  # noqa: S311 -- these numbers are not secrets
@@ -24,7 +24,7 @@ class RandomInputs:
     def numbers(self, count: int, low: float, high: float, *, digits: int = 2) -> list[float]:
         """Return a list of `count` different random numbers.
 
-        With equal numbers, a program that confuses two of them could pass.
+        If two numbers were equal, a program that confuses them could pass.
         """
         found: list[float] = []
         while len(found) < count:

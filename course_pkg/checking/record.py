@@ -3,8 +3,8 @@
 The record shows students their progress in the course. Students can change the record, because it is in their
 own folder. The record is therefore never used for a grade.
 
-Grades come from check runners that `course grade` starts. The import-linter contract in pyproject.toml
-forbids imports of this module in the packages grading and sandbox.
+Grades come from check runners that `course grade` starts. A rule of import-linter in pyproject.toml forbids
+the packages grading and sandbox to import this module.
 """
 
 from __future__ import annotations

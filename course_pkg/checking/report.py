@@ -1,7 +1,7 @@
 """The report of a check, as data, as text and as HTML.
 
-The report of a failed check shows first the assertions that hold, then the failed assertion, and then the
-goal. The report of a passed check contains no values, times or random texts, so it is the same in every run.
+The report of a failed check shows the assertions that hold, then the failed assertion, and then the goal. The
+report of a passed check contains no values, times or random texts, so it is the same in every run.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class Report:
     points: float = 0
     possible: float = 0
     assertions: tuple[Assertion, ...] = ()
-    # An instruction for the student that belongs to no assertion, for example if a name is not defined.
+    # An instruction for the student without a failed assertion, for example if a name is not defined.
     note: str = ""
     printed: str = field(default="", compare=False)  # Student code printed this text during the check.
     # The points are divided among these goals; without goals, a check gives all points or none.

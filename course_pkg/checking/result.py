@@ -47,8 +47,8 @@ class Result:
     def returned(self, kind: type[Item] | None = None) -> Json | Item:
         """Assert that the function returned without an error, and return its value as plain data.
 
-        If the called function belongs to the check, not to the student, pass the expected class as `kind`. In
-        this case, CheckError is raised for a value of another class.
+        If the function is the check's own function, pass the expected class as `kind`. In this case,
+        CheckError is raised for a value of another class.
         """
         assertion = f"{self._label} returns"
         if self.error:

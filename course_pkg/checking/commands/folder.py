@@ -15,7 +15,7 @@ from course_pkg.ros.protocol.snapshot import Snapshot, look
 from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import at_this_load, wait_until
 
-SLACK = 3.0  # After the time limit of a command, the kernel has this additional time in s to reply.
+SLACK = 3.0  # The kernel must reply within this time in s after the time limit of a command.
 ENDING = 5.0  # A command has to end within this time in s after SIGINT or SIGKILL.
 LOOK = 0.1  # This is the time in s between two snapshots of a graph.
 COLOUR = re.compile(r"\x1b\[\d*m")
@@ -53,7 +53,7 @@ class Folder:
         return Finished(reply)
 
     def start(self, *argv: str, worded: str = "") -> Running:
-        """In this folder, start a command that runs until stop(); returns a context manager."""
+        """Start a command in this folder; it runs until stop(). Returns a context manager."""
         self._doing(worded or " ".join(argv))
         reply = self._channel.ask("start", timeout=SLACK, argv=argv, folder=self._number)
         number = reply.get("process")
@@ -69,8 +69,8 @@ class Running:
         self._channel = channel
         self._number = number
         self._only = only
-        self.other = ""  # This is the name of a forbidden program that examine() has found, or "".
-        self.show = show  # After a call of show(), reports show this command as the last command.
+        self.other = ""  # The name of a forbidden program that examine() has found, or "".
+        self.show = show  # show() makes reports show this command as the last command.
 
     @property
     def status(self) -> int | None:
@@ -79,7 +79,7 @@ class Running:
         return status if isinstance(status, int) else None
 
     def listens_at(self, uri: str, *, itself: bool = False) -> bool:
-        """Return whether the command, or one of its child processes, listens at the port in `uri`.
+        """Return whether the command or one of its child processes listens at the port in `uri`.
 
         If `itself` is true, the child processes do not count.
         """
@@ -88,7 +88,7 @@ class Running:
         return isinstance(ports, list) and port_of(uri) in ports
 
     def examine(self) -> None:
-        """Examine the files that the processes of the command execute; store the name of a forbidden file."""
+        """Store the name of a forbidden file that a process of the command executes."""
         if self._only and not self.other:
             reply = self._channel.ask("programs", timeout=at_this_load(SLACK), process=self._number)
             programs = reply.get("programs")
@@ -133,7 +133,7 @@ def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) ->
 
 
 def telling_line(printed: str) -> str:
-    """Return the last line of `printed` that contains an error; if there is none, return the last line.
+    """Return the last line of `printed` that contains an error, or the last line if there is no such line.
 
     Colour codes and the path of the current folder are removed.
     """

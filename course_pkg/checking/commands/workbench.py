@@ -1,8 +1,8 @@
 """A check's folders on the kernel's computer, and the commands that run in them.
 
 A check never changes the student's own files: it uses copies of these files, and adds its own files. The
-commands get the course's environment, not the kernel's environment. A package that a student has sourced
-therefore cannot replace a package that the check builds.
+commands get the course's environment, not the kernel's environment. If a student has sourced a package, this
+package therefore cannot replace a package that the check builds.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ class CommandFolders:
 
 
 class _Running:
-    """A running command; it ends at the latest when the kernel ends."""
+    """A running command; when the kernel ends, the command ends, too."""
 
     def __init__(self, command: Sequence[str], folder: Path) -> None:
         self._started = time.monotonic()
@@ -142,8 +142,8 @@ class _Running:
 def _place(name: str) -> str:
     """Return the path of a file's copy, relative to the check's folder.
 
-    A relative path does not change. For an absolute path, or a path outside the folder, use only the file
-    name.
+    A relative path does not change. For an absolute path or a path outside the folder, the result is only the
+    file name.
     """
     path = Path(os.path.normpath(name))
     return path.name if path.is_absolute() or ".." in path.parts else str(path)
@@ -198,7 +198,7 @@ def _finished(command: Sequence[str], folder: Path, timeout: float) -> Reply:
 
 
 def _scheduled(pid: int) -> Reply:
-    """Return how long a process's main thread has run, and how long it has waited for a CPU, in s.
+    """Return for how many seconds a process's main thread has run, and has waited for a CPU.
 
     Source: /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). If this file cannot be read,
     the result is empty.

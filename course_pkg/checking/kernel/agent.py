@@ -1,7 +1,7 @@
 """The kernel agent: it reads and runs the student's code when the check runner requests this.
 
-Student code can forge a reply, so the check runner trusts a reply only if the runner itself observes the
-effect, such as a message.
+Student code can forge a reply. The check runner therefore trusts a reply only if the runner itself observes
+the effect, such as a message.
 """
 
 from __future__ import annotations
@@ -172,7 +172,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`; otherwise, it prints to the streams at the start of rospy."""
+    """Let rospy's log print to `stream`, not to the streams that existed at the start of rospy."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers
@@ -208,7 +208,7 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
 
 def _described(error: BaseException) -> Json:
     called = traceback.walk_tb(error.__traceback__)
-    # Use only the lines of cells. The module of a cell is `__main__`, and no other code has this module.
+    # Use only the lines of cells. Only the code of cells has the module name `__main__`.
     lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]
     return {
         "type": _class_name(type(error)),

@@ -31,7 +31,7 @@ class HandlerErrors(logging.Handler):
         super().close()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Store the exception that this thread is handling, if the log record is about this exception."""
+        """If the log record is about an exception in a handler, store this exception."""
         error = sys.exc_info()[1]
         if error is None or not record.getMessage().startswith(ABOUT):
             return

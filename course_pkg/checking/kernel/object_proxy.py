@@ -71,7 +71,7 @@ class ObjectProxies:
             self._drop()
             raise ConnectionError(OVER) from error
         except BaseException:
-            # Close the connection; otherwise, a later call would read the reply to this call.
+            # Without this call, a later call would read the reply to the failed call.
             self._drop()
             raise
         if "placed" in reply:
@@ -83,7 +83,7 @@ class ObjectProxies:
     def _connection(self) -> _Connection:
         """Return the connection of this thread; the connection is closed when the thread has ended."""
         connection: _Connection | None = getattr(self._own, "connection", None)
-        # A forked process opens a new connection, because its parent uses the old connection.
+        # A forked process opens a new connection; its parent process continues to use the old connection.
         if connection is None or connection.process != os.getpid():
             connection = _Connection(self.port, self._key)
             with self._lock:
@@ -124,7 +124,7 @@ class _Connection(JsonChannel):
 
 
 def _class_of(item: dict[str, Json]) -> type:
-    """Return a class with the name, methods and attributes that the real object's class has."""
+    """Return a class with the same name, methods and attributes as the class of the real object."""
     members: dict[str, Value] = {name: _method(name) for name in _names(item, "methods")}
     writable = set(_names(item, "writable"))
     for name in {*_names(item, "readable"), *writable}:

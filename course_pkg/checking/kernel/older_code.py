@@ -1,8 +1,8 @@
 """Find a student's function or class that is older than the code in its cell.
 
-If a function is older than its cell, a check would examine other code than the code in the cell. One cause is
-a syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but
-not the cell that creates the service.
+If a function is older than its cell, a check would examine old code, not the code in the cell. One cause is a
+syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but not
+the cell that creates the service.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class OlderCode:
     def _defined_again(self, function: FunctionType) -> bool:
         """Return whether the last run of the cell defined the function again, with the same code.
 
-        If the result is True, a change in the cell did not change the code of this function.
+        In this case, a change in the cell did not affect this function.
         """
         first, *rest = function.__qualname__.split(".")
         current = self._namespace.get(first)
@@ -93,7 +93,7 @@ def _handler_of(service: str) -> Value:
 
 
 def _functions_of(value: Value) -> list[FunctionType]:
-    """Return the methods of the class `value`; for another object, return the function that runs its call."""
+    """Return the methods of the class `value`, or the function that the callable object `value` calls."""
     found = vars(value).values() if isinstance(value, type) else [_function_of(value)]
     return [each for each in found if isinstance(each, FunctionType)]
 

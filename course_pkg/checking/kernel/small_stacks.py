@@ -1,4 +1,4 @@
-"""Code that a check runs in the kernel: it makes the stacks of new threads small, to save memory.
+"""This code runs in the kernel during a check: new threads get small stacks, to save memory.
 
 Fifty handlers that run at the same time need fifty threads. With the default stack size of 8 MB, these
 threads need more memory than a sandbox has.

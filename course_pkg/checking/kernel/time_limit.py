@@ -1,8 +1,8 @@
 """Run a student's function with a time limit, even if the function catches all exceptions.
 
-A loop with a bare `except` catches every exception in its `try` block. The exception is therefore raised a
-second time when Python next handles signals. At this time, the `except` block is running or has ended, so the
-loop cannot catch the second exception.
+A loop with a bare `except` catches every exception in its `try` block. Python therefore raises the exception
+a second time, when it next handles signals. By then, the `except` block is running or has ended, so the loop
+cannot catch the second exception.
 
 No exception is raised while a library cleans up, for example while it releases a lock.
 """
@@ -39,7 +39,7 @@ class TimeLimit:
         self._error = _coming_again(TimesUp)
         # This is the last time (s) at which _end() raised the error in the running code.
         self._raised = 0.0
-        self._stopped = False  # The value is true after the user has pressed the Stop button.
+        self._stopped = False  # The user has pressed the Stop button.
 
     def call(self, function: Callable[[], Value]) -> Value:
         """Call the function `function`, and return its result.
@@ -59,7 +59,7 @@ class TimeLimit:
                 raise KeyboardInterrupt
 
     def _stop(self, _number: int, frame: FrameType | None) -> None:
-        """Raise KeyboardInterrupt repeatedly, until the function ends."""
+        """Handle the Stop button: raise KeyboardInterrupt repeatedly until the function ends."""
         self._stopped = True
         self._error = _coming_again(KeyboardInterrupt)
         signal.setitimer(signal.ITIMER_REAL, REPEAT, REPEAT)
@@ -75,15 +75,15 @@ class TimeLimit:
             self._raised = now
             raise self._error
         try:
-            # This statement sends SIGALRM again, so _end() runs again soon; before this, the library can
-            # clean up.
+            # This statement sends SIGALRM again, so _end() runs again soon. Until then, the library can clean
+            # up.
             raise self._error
         except BaseException:  # noqa: BLE001
             return
 
 
 def _call(function: Callable[[], Value]) -> Value:
-    """Run the function `function`; _is_called() finds the frame of this call on the stack."""
+    """Run the function `function`; _is_called() searches the stack for the frame of this call."""
     return function()
 
 
@@ -97,7 +97,7 @@ def _is_called(frame: FrameType | None) -> bool:
 
 
 def _coming_again(error: type[BaseException]) -> type[BaseException]:
-    """Return a subclass of `error`; each new instance of this subclass sends SIGALRM to this process again.
+    """Return a subclass of `error`; an instance sends SIGALRM to this process when it is created.
 
     Raise the returned class, not an instance. The `raise` statement then creates the instance. Python handles
     the new signal only after the exception has left the function. If the instance existed before the `raise`

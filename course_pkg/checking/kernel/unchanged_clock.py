@@ -1,6 +1,6 @@
 """Code for the kernel: a module `clock` with the functions of `time`.
 
-A student can replace functions of the module `time`, but not the functions of `clock`, which is a new module.
+A student can replace functions of the module `time`, but not the functions of the new module `clock`.
 """
 
 from __future__ import annotations

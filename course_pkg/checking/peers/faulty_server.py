@@ -1,8 +1,8 @@
 """A server of a check: it executes a list of planned faults, such as a crash with a later restart.
 
 A client cannot distinguish a planned fault from a real fault. A suspended process accepts connections but
-does not respond. After a kill, the server's registration remains, but its port is closed. A restarted process
-has a new address.
+does not respond. After a kill, the server's registration remains at the master, but its port is closed. A
+restarted process has a new address.
 """
 
 from __future__ import annotations
@@ -65,12 +65,11 @@ class FaultyServer(ScriptedServer):
     def __init__(self, node: Node, name: str, kind: ServiceClass, work: Work) -> None:
         super().__init__(node, name, kind, self._scripted)
         self.plan: deque[Fault] = deque()
-        # The times of requests, and of connections with a Frozen fault; each time is a value of
-        # time.monotonic().
+        # The times of all requests and of all connections with a Frozen fault, from time.monotonic().
         self.arrivals: list[float] = []
         self._work = work
         self._plan_lock = threading.Lock()
-        # This lock is acquired while an address is registered or unregistered.
+        # A thread holds this lock while it registers or unregisters an address.
         self._registering = threading.RLock()
         self._restarts: list[threading.Timer] = []
 
@@ -93,8 +92,8 @@ class FaultyServer(ScriptedServer):
     def _arrived(self, *, frozen: bool = False) -> Fault | None:
         """Record the time of a call, and remove the fault of this call from the plan.
 
-        If `frozen` is true, record the call and remove the fault only if the next fault is Frozen. A Frozen
-        fault occurs in the handshake, and all other faults occur after the request.
+        If `frozen` is true and the next fault is not Frozen, do nothing. A Frozen fault occurs in the
+        handshake, before the request. All other faults occur after the request.
         """
         with self._plan_lock:
             due = bool(self.plan) and (not frozen or isinstance(self.plan[0].what, Frozen))
@@ -105,7 +104,7 @@ class FaultyServer(ScriptedServer):
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
         """Reply to the handshake, unless the next fault is Frozen.
 
-        A probe (rosservice sends one, for example) removes no fault from the plan.
+        A probe, such as the probe of rosservice, removes no fault from the plan.
         """
         if header.get("probe") == "1":
             with self._plan_lock:

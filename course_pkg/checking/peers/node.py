@@ -24,7 +24,7 @@ PROBE = 2.0  # A server has to reply with its type within this time in s.
 
 @dataclass(frozen=True)
 class Registration:
-    """The master's entry for a service: the node of the server, and the addresses of service and node."""
+    """The master's entry for a service: the server's node, the service's address, and the node's address."""
 
     node: str
     uri: str
@@ -56,24 +56,24 @@ class Node:
         self.master.register_service(self.name, service, uri, self.uri)
 
     def restore(self, service: str, former: Registration | None) -> None:
-        """Register the server `former` of the service again, under the name of its former node.
+        """Register the server `former` of the service again, with the name of its node.
 
-        The master stores one server for each service. It does not notify a replaced server, so the former
-        server does not register again by itself.
+        The master stores one server for each service. The master does not notify a replaced server, so the
+        former server does not register again by itself.
         """
         if former:
             self.master.register_service(former.node, service, former.uri, former.node_uri)
 
     def forget_topics(self, made: Callable[[str], bool]) -> None:
-        """Unregister all publishers and subscribers of a topic if `made` returns True for its name.
+        """Unregister all publishers and subscribers of each topic for which `made` returns True.
 
-        A student's function may have left publishers and subscribers registered.
+        A student's function may not have unregistered its publishers and subscribers.
         """
         entries = registrations(self.master)
         withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])
 
     def probe(self, service: str) -> Probe | None:
-        """Request the type of this service from its server; return None if no server is registered."""
+        """Ask the server of this service for its type; return None if no server is registered."""
         if not (uri := self.master.lookup_service(service)):
             return None
         probe = service_probe(service, uri)
@@ -103,7 +103,8 @@ def on_the_graph() -> Iterator[Node]:
             signal.raise_signal(signal.SIGTERM)
         yield node
     finally:
-        # If the master has ended, no registrations exist. SIGTERM is delayed until the block has ended.
+        # If the master has ended, there are no registrations to remove. held_back() delays SIGTERM until the
+        # end of the block.
         with suppress(GraphError), held_back(signal.SIGTERM):
             # rospy.signal_shutdown is not used, because it sleeps for 0.6 s.
             withdraw_node(master, node.name, node.uri)
@@ -153,7 +154,7 @@ class FakeNode:
         self._node.master.unregister_publisher(self.name, self._topic, self._uri)
         if self._listener:
             with suppress(OSError):
-                # This call makes the other thread's accept() raise an error.
+                # This call ends the other thread's accept() with an error.
                 self._listener.shutdown(socket.SHUT_RDWR)
             self._listener.close()
         if self._api:

@@ -20,8 +20,8 @@ class Publisher:
 
     If `once` is true, the publisher begins as soon as there is a subscriber, and ends after the last message.
     `sent` contains the times of the messages in s of time.monotonic(). `subscribers` contains the number of
-    connected subscribers at each of these times. A disconnected subscriber may be counted for two more
-    messages.
+    connected subscribers at each of these times. After a subscriber has disconnected, up to two more messages
+    may count it.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class Publisher:
         return bool(wait_until(self._publisher.get_num_connections, within, stopped=self._over))
 
     def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
-        """Assert that a subscriber of the right type exists; return when this subscriber is connected.
+        """Assert that a subscriber of the right type exists, and wait until it is connected.
 
         `hints` are for the value "no subscriber"; a subscriber with another type does not count.
         """

@@ -23,7 +23,7 @@ from course_pkg.checking.plain_values import Fields, ServiceClass, Value, fields
 
 @dataclass(frozen=True)
 class Refuse:
-    """Send the error message of rospy for a ServiceException in a handler."""
+    """Send the error message that rospy sends after a ServiceException in a handler."""
 
     reason: str
 
@@ -62,7 +62,7 @@ class Received:
 
 
 class ScriptedServer:
-    """Offers the service during the `with` block; after the block, registers the previous server again."""
+    """Offers the service during the `with` block, and then registers the previous server again."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, script: Script) -> None:
         self.received = Received()

@@ -56,11 +56,11 @@ class Service:
         self._label = label  # Assertions show this text for the service.
         self._hints = hints
         self._timeout = timeout
-        # The function requests the traceback of the handler's last exception from the kernel.
+        # This function asks the kernel for the traceback of the handler's last exception.
         self._traceback = traceback
 
     def __call__(self, *values: Value, **fields: Value) -> Message:
-        """Return the response to one call, and assert that the service answers."""
+        """Call the service once, assert that it responds, and return the response."""
         return self._answered(self._call([self._request(*values, **fields)])[0])
 
     def at_once(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
@@ -123,7 +123,7 @@ class Service:
     def _call(self, requests: Sequence[Message]) -> list[Reply]:
         """Make calls with all requests at the same time.
 
-        The thread of a call without a response runs until this process ends.
+        If a call gets no response, its thread runs until this process ends.
         """
         inboxes = [self._started(request) for request in requests]
         deadline = Deadline(self._timeout)

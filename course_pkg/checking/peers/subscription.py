@@ -41,7 +41,7 @@ class Subscription:
     def __init__(self, results: Results, node: Node, topic: str, kind: ServiceClass, label: str) -> None:
         self.name = topic
         self.kind = str(kind._type)
-        self.count = 0  # This number counts all messages of the type, even messages that are not stored.
+        self.count = 0  # This number also counts the messages that are not stored.
         self._results, self._node = results, node
         self._label = label  # The titles of assertions show this text for the topic.
         self._cls = kind
@@ -78,7 +78,7 @@ class Subscription:
             return self._arrivals[before:]
 
     def published(self, *, hints: Hints = (), within: float = 2.0) -> None:
-        """Assert that a node publishes on the topic with the right type; return when the node is connected.
+        """Assert that a node publishes on the topic with the right type, and wait for the connection.
 
         The actual value for `hints` is "no publisher", or the name of a wrong type.
         """

@@ -10,9 +10,9 @@ each thread of the kernel. Each line on a connection is one JSON object, such as
     kernel -> runner   {"object": 0, "do": "set", "name": "count", "args": [3]}
     runner -> kernel   {"value": 5}, {"placed": {…}} for another object, or {"error": {"type": …, "text": …}}
 
-The listening socket is on the loopback interface, which a kernel in a sandbox shares with its check runner.
-The kernel gets the key in the request `place`, on another connection. Therefore, other users of the computer
-do not know the key.
+The listening socket is on the loopback interface. A kernel in a sandbox has the same loopback interface as
+its check runner. The kernel receives the key with the request `place`, on another connection. Therefore,
+other users of the computer do not know the key.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ class PlacedObjects:
             self._closed = True
             left = dict(self._open)
         with suppress(OSError):
-            # This call makes the other thread's accept() raise an error.
+            # This call ends the other thread's accept() with an error.
             self._listener.shutdown(socket.SHUT_RDWR)
         self._listener.close()
         for each in self._objects:
@@ -130,7 +130,7 @@ class PlacedObjects:
         try:
             thread.start()
             self._open[thread] = sock
-        except RuntimeError:  # If the memory is not sufficient for another thread, the connection is closed.
+        except RuntimeError:  # If there is not enough memory for another thread, the connection is closed.
             sock.close()
         finally:
             threading.stack_size(before)

@@ -26,8 +26,8 @@ from course_pkg.errors import ChannelClosed, ChannelError, CheckError
 from course_pkg.ros.notebook.cells import Cells
 from course_pkg.sharing.notice import notice
 
-# The check runner has to send its next message within this time in s. This limit is long, because in grading,
-# a check can take up to 600 s on a busy machine without sending a message.
+# The check runner has to send its next message within this time in s. The limit is long because a check can
+# take up to 600 s in grading, on a busy machine, without a message.
 TIMEOUT = 900.0
 RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.processes.runner_process import main; main()"
 
@@ -36,8 +36,8 @@ def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report
     """Let a separate node examine the part `check_id`, such as "05.1", and return the report.
 
     `namespace` contains the names that the student has defined. If `namespace` is None, the names of the
-    notebook are used. An error of the check is shown in the report. Only KeyboardInterrupt is raised, and
-    only after the check runner has ended.
+    notebook are used. The report shows an error of the check. The only exception is KeyboardInterrupt; it is
+    raised after the check runner has ended.
     """
     check_id = str(check_id)
     if threading.current_thread() is not threading.main_thread():
@@ -85,7 +85,7 @@ def _runner() -> Iterator[Channel]:
 
 @contextmanager
 def _started_runner() -> Iterator[Channel]:
-    """Start a check runner; it ends after the `with` block, or when this process ends, even after SIGKILL."""
+    """Start a check runner. It ends after the `with` block or with this process, even after SIGKILL."""
     if "ROS_MASTER_URI" not in os.environ:
         raise CheckError("The node does not exist yet. First run the set-up cell, which calls join().")
     ours, theirs = socket.socketpair()
@@ -104,7 +104,7 @@ def _started_runner() -> Iterator[Channel]:
 
 
 def _spawn(theirs: socket.socket, log: IO[bytes]) -> subprocess.Popen[bytes]:
-    """Start the check runner in a separate session, because an interrupt of the kernel must not reach it.
+    """Start the check runner in a separate session, so an interrupt of the kernel does not reach it.
 
     The check runner imports the course and the workspace from the same folders as this process. The
     notebook's folder is searched last, or not at all, so a student's file rospy.py cannot replace the module
@@ -141,7 +141,7 @@ def _how_it_ended(process: subprocess.Popen[bytes], log: IO[bytes]) -> str:
 
 
 def _notebook() -> Mapping[str, Value]:
-    """Return the names that the notebook, or the program that calls this function, defines."""
+    """Return the global names of the notebook, or of the program that calls check()."""
     if "IPython" in sys.modules:
         from IPython.core.getipython import get_ipython
 

@@ -39,9 +39,9 @@ def run_check(
 ) -> Report:
     """Run the check that the client requests; return the report, and send it to the client.
 
-    `store` is a function that gets the id of the check and its result. It returns a message for the report,
-    or "". Without `store`, nothing is stored. If `only` is not empty, only the check with this id is run.
-    `kernel` is a function that returns the process id of the kernel, or None if this id is not known.
+    `store` is a function that gets the id of the check and its result. `store` returns a message for the
+    report, or "". Without `store`, nothing is stored. If `only` is not empty, only the check with this id is
+    run. `kernel` is a function that returns the process id of the kernel, or None if this id is not known.
     Raises ChannelError if the client does not request a check.
     """
     seed = int(os.environ.get("COURSE_SEED") or secrets.randbits(32))

@@ -1,8 +1,8 @@
 """A check's copy of a student's catkin package, built in a separate folder, and the programs of this copy.
 
 If the student has not written a file, the check adds the course's version of this file. Therefore, one file
-can be examined before the student has written the other files. Files can also be missing in grading,
-because a submission contains only the cells of the notebook.
+can be examined before the student has written the other files. In grading, files can also be missing, because
+a submission contains only the notebook's cells.
 """
 
 from __future__ import annotations
@@ -78,8 +78,8 @@ class BuiltPackage:
     def md5(self, type_name: str, request: Message = None) -> tuple[str, str]:
         """Import a service type in Python; return (its MD5 sum, ""), or ("", the error output).
 
-        If `request` is given, the type must serialise the same request with the same result. Its fields have
-        to be numbers.
+        If `request` is given, assert that the type serialises `request` correctly. Its fields have to be
+        numbers.
         """
         line = f"from {self.package.name}.srv import {type_name}; print({type_name}._md5sum)"
         values = [] if request is None else [getattr(request, name) for name in request.__slots__]
@@ -108,9 +108,9 @@ def built(
     """Build a copy of the student's package, and assert that the build succeeds.
 
     If `alone` is true, only the file `examined` comes from the student. `drawn` contains files that replace
-    the student's files; the keys are paths in the package. The content of these files is random, so that a
-    student's CMakeLists.txt cannot contain it in advance. Raises CheckError if the build takes longer than
-    the time limit `within` (s). A build with C++ needs more time than the default.
+    the student's files. The keys are paths in the package. These files have random content, so a student's
+    CMakeLists.txt cannot already contain it. Raises CheckError if the build takes longer than the time limit
+    `within` (s). A build with C++ needs more time than the default.
     """
     own = _own_files(package, examined)
     replaced = {package.path(file): text for file, text in (drawn or {}).items()}
@@ -153,7 +153,7 @@ def copied(context: CheckContext, package: Package, *, examined: str, alone: boo
 def _own_files(package: Package, examined: str) -> dict[str, str]:
     """Return the check's own version of each file except the file `examined`; the keys are paths.
 
-    If the result contained the examined file, a CMakeLists.txt could use the check's version of this file.
+    If the result contained the file `examined`, a student's CMakeLists.txt could use the check's version.
     """
     return {f"{OWN}/{package.name}/{file}": text for file, text in package.files.items() if file != examined}
 

@@ -13,8 +13,7 @@ OPERATORS = "();<>|&"
 def substitutes(line: str) -> bool:
     """Return whether bash runs another command for a part of `line`: a $(…), a `…` or a <(…).
 
-    The text in single quotes and each character after a backslash are ignored, because bash replaces nothing
-    there.
+    Text in single quotes and a character after a backslash do not count, because bash replaces nothing there.
     """
     quoted = re.compile(r"""\\.|'[^']*'|("(?:\\.|[^"\\])*")""", re.DOTALL)
     bare = quoted.sub(lambda found: re.sub(r"\\.", "", found[1] or ""), line)

@@ -18,8 +18,9 @@ NEAR = 1e-5
 def random_boxes(context: CheckContext) -> list[list[float]]:
     """Return the length, the width and the height of random boxes.
 
-    The first box has the size of a table. The other boxes are very small boxes, large boxes,
-    boxes with whole numbers, and a cube, in a random order. A server for boxes of one size therefore fails.
+    The first box has the size of a table. The other boxes are very small boxes, large boxes, boxes with whole
+    numbers, and a cube, in a random order. A server that is correct only for boxes of one size therefore
+    fails.
     """
     sizes = [(1.1, 9.0, 2)] * context.random.integer(2, 4)
     sizes += [(0.02, 0.4, 3), (12.0, 900.0, 2), (1.0, 99.0, 0)]
@@ -64,8 +65,8 @@ def expect_geometry(
 def boxes(context: CheckContext, count: int) -> list[list[float]]:
     """Return the sides of `count` boxes: fractions, whole numbers, equal sides, and small or large sides.
 
-    A function that handles only one kind of number correctly fails. The first box has three different
-    fractional sides, so that a wrong order is visible.
+    A function that handles only one kind of number correctly fails. The first box has three different sides
+    with fractions, so a wrong order of the sides is visible.
     """
     side = context.random.number(0.5, 9.0)
     others: list[list[float]] = [

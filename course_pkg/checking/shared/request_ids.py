@@ -1,11 +1,11 @@
-"""Recognise request ids that are not unique, because each program that runs the code creates the same ids."""
+"""Find request ids that are not unique because each program that runs the code creates the same ids."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
 
-SMALL = 100_000  # A number below SMALL is the number of a counter; the numbers of clocks are larger.
+SMALL = 100_000  # A number below SMALL comes from a counter; numbers from a clock are larger.
 
 
 def from_a_counter(ids: Sequence[str]) -> bool:

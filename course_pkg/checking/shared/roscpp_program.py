@@ -1,7 +1,7 @@
 """Compile a roscpp program, and inspect it: it must not start another program.
 
-A program can hide a call that starts another program. Therefore, require_no_other_program() also looks at the
-files that the processes of the program execute.
+A program can hide a call that starts another program. Therefore, require_no_other_program() also examines the
+files that the program's processes execute.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ COMPILES = "the compiler accepts the file"
 ITSELF = "the C++ program does the work itself"
 STARTS_ANOTHER = "The program contains a call that can start another program. Use only functions of roscpp."
 
-# This pattern matches an undefined symbol in the output of `readelf`. The program uses this symbol, but a
-# library defines it.
+# This pattern matches an undefined symbol in the output of `readelf`. An undefined symbol is a name that the
+# program uses and a library defines.
 CALLED = re.compile(r"\sUND\s+([A-Za-z_]\w*)")
 STARTS = re.compile(
     r"f?exec[lv]\w*|posix_spawnp?|v?fork|clone\d?|system|popen|dlm?open|syscall|mprotect|memfd_create"
@@ -64,7 +64,7 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
 
     The file is in the folder `folder`.
 
-    C++ code can start another program (exec(3)), and a CMakeLists.txt can write a script instead of the
+    C++ code can start another program with exec(3). A CMakeLists.txt can write a script in place of the
     compiled program. Raises ToolMissing if binutils is missing; binutils is usually installed with a
     compiler. A report shows these assertions only if they fail.
     """
@@ -106,7 +106,7 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
 def require_no_other_program(context: CheckContext, running: Running) -> None:
     """Assert that the processes of `running` execute only the compiled program of their folder.
 
-    The assertion also fails if Running.examine() has found another file earlier.
+    The assertion also fails if an earlier call of Running.examine() has found another file.
     """
     running.examine()
     if running.other:

@@ -26,8 +26,8 @@ def require_shebang(
     `program` is the name of the right program.
 
     `missing`, `elsewhere`, `another`, `windows` and `mark` are hints for five mistakes: no shebang, a shebang
-    in another line, another program, Windows line endings, and a byte order mark. `missing` also replaces
-    each hint that is not given.
+    in another line, another program, Windows line endings, and a byte order mark. If another hint is not
+    given, `missing` is used.
     """
     text = context.source(f"file:{path}")
     first = text.partition("\n")[0]
@@ -49,7 +49,7 @@ def require_shebang(
 
 
 def own_line(name: str, printed: str) -> str:
-    """Return a hint with the number of the wrong line in the script `name`, if the output contains it."""
+    """Return a hint with the line number of the error in the script `name`, if `printed` contains it."""
     numbers = re.findall(rf'{re.escape(name)}", line (\d+)', printed)
     return (
         f"The error occurred in line {numbers[-1]} of {name}."

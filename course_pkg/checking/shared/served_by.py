@@ -10,7 +10,7 @@ import time
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.context import CheckContext
 
-PAUSE = 0.7  # After this time in s without a call, a server still has to offer its service.
+PAUSE = 0.7  # A server still has to offer its service after this time in s without a call.
 SERVED_HERE = """
 from rospy.impl.registration import get_service_manager
 
@@ -53,7 +53,7 @@ def require_served_by_program(
 def require_still_served(context: CheckContext, *services: str) -> None:
     """Wait for a moment, and assert that each service still exists.
 
-    Use this assertion before the last call of a check: a server must still run some time after a call.
+    Call this function before the last call of a check: a server must still run some time after a call.
     """
     time.sleep(PAUSE)
     seen = context.look()
