@@ -1,5 +1,5 @@
 """Grades submissions.
 
-A sandbox runs the course's solution notebook with the student's answers in place of the solutions, and a
-process outside the sandbox checks the results.
+A sandbox runs the course's solution notebook, in which the student's answers replace the solutions. A process
+outside the sandbox checks the results.
 """

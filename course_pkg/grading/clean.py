@@ -38,8 +38,8 @@ UNSEEN = re.compile(
 # ILLEGAL matches halves of surrogate pairs, and code points that are not characters.
 ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 BREAKS = re.compile("\r\n?|[\u2028\u2029]")
-# In a spreadsheet, a formula begins with a character in `FORMULA`; only some spreadsheets also accept the
-# last four of these, which are full-width characters.
+# In a spreadsheet, a formula begins with a character in `FORMULA`. The last four characters are full-width
+# characters; only some spreadsheets accept them.
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
@@ -76,7 +76,7 @@ def html(value: object, limit: int = LONG) -> str:
 
 
 def cell(value: object, limit: int = SHORT) -> str:
-    """Return the value as one line for a cell of a table; a spreadsheet does not read it as a formula."""
+    """Return the value as one line for a cell of a table; no spreadsheet reads it as a formula."""
     kept = line(value, limit)
     return f"'{kept}" if kept.startswith(tuple(FORMULA)) else kept
 
@@ -108,8 +108,8 @@ def file_name(name: str) -> str:
 
     The returned name is never the name of a device or a path to another folder.
 
-    Different names get different file names: each changed name gets a suffix. The file names differ even on a
-    file system that ignores case.
+    Different names get different file names: each changed name gets a suffix. Even a file system that ignores
+    case distinguishes these file names.
     """
     if PLAIN_NAME.fullmatch(name) and _may_stand(name):
         return name

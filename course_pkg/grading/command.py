@@ -42,8 +42,8 @@ from course_pkg.sandbox.linux.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 
-# A_CORE is the number of submissions that each processor core grades at the same time; it is more than 1,
-# because a check mostly waits.
+# A_CORE is the number of submissions that each processor core grades at the same time. The number is more
+# than 1, because a check mostly waits.
 A_CORE = 2
 
 
@@ -72,7 +72,8 @@ class Options:
     roster: Path | None = None
     moodle_worksheet: Path | None = None
     points: Path | None = None
-    # nbval runs the notebooks of all students ("all"), of students with missing points ("missing"), or none.
+    # nbval runs the notebooks of all students ("all"), of students with missing points ("missing"), or of no
+    # student.
     validate: str = "missing"
     flags: tuple[str, ...] = ()  # Only these kinds of flags are reported; an empty tuple means all kinds.
 
@@ -113,8 +114,8 @@ def grade(options: Options) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("\nThe run was stopped. Type the same command again to continue.\n")
         sys.stderr.flush()
-        # os._exit() does not wait for the threads that grade notebooks. It also ends the processes of these
-        # threads.
+        # os._exit() does not wait for the threads that grade notebooks; it also ends the processes of these
+        # threads. It also ends the processes of these threads.
         os._exit(130)
     graded = best_attempts([_with_lateness(points.weighed(each), policy) for each in graded])
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
@@ -172,7 +173,7 @@ def grade_one(
 ) -> int:
     """Grade one notebook and write the result into the file `out`.
 
-    Each job of a cluster's job array calls this function.
+    Each job in a job array of a cluster calls this function.
     """
     require_references()
     found = submissions(notebook)
@@ -202,7 +203,7 @@ def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Gra
 
 def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> Deadlines:
     """Return the deadlines, with the extensions in the roster."""
-    # If the roster contains an invalid number of days, this call raises an error before the grading begins.
+    # This call raises an error for an invalid number of days in the roster, before the grading begins.
     extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
     zone = zone_of(options.time_zone) if options.time_zone else None
@@ -212,7 +213,7 @@ def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> D
 def _dated(
     options: Options, found: Sequence[Submission], due: Deadlines, table: LateTable | None
 ) -> list[Submission]:
-    """Return the submissions to grade; each submission contains the number of days by which it is late."""
+    """Return the submissions to grade; each of them contains the number of days after its deadline."""
     zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
     asked = bool(options.deadlines or options.times)  # Without a deadline, times.csv is not read.

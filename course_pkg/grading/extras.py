@@ -1,8 +1,8 @@
-"""Reads an instructor's additional exercises and points from a separate folder that students never see.
+"""Reads an instructor's additional exercises and points from a private folder that students never see.
 
-The file private_05.py declares additional parts for the exercises of chapter 05. For example, the part
-"05.1.1" is examined after the student's cell of exercise 05.1. The file points.json sets other points for the
-parts (see points.py).
+The file private_05.py declares additional parts for the exercises of chapter 05. For example, the check of
+the part "05.1.1" runs after the student's cell of exercise 05.1. The file points.json sets other points for
+the parts (see points.py).
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
 Run = Callable[[PartJob], PartResult]
 LONGEST_CODE = 20_000  # LONGEST_CODE is the maximum number of characters of a part's code in the feedback.
-# TRIES is the maximum number of runs of a part. A part is run again if a sandbox worker fails, because an
+# TRIES is the maximum number of runs of a part. The course runs a part again if a sandbox worker fails. An
 # answer cannot cause this failure.
 TRIES = 2
 
@@ -29,9 +29,9 @@ class Answers:
     """A student's answers for a chapter: files in submitted packages, and cells of the notebook.
 
     A submitted package replaces the package that the cells of the notebook write into src. If the package
-    contains all files of a part, the part is examined in the package, and the notebook's cells are not run,
-    because the student may have changed the files in an editor. If a file is not in the package, the cell
-    that writes this file is used. `problem` says why there is no notebook.
+    contains all files of a part, the check uses the package and the notebook's cells do not run. The reason
+    is that the student may have changed the files in an editor. Otherwise, the cells write the missing files.
+    `problem` says why there is no notebook.
     """
 
     packages: tuple[Package, ...]

@@ -3,8 +3,8 @@
 The entry "05.1":4 gives 4 points to the part 05.1; these points are divided among the goals in the author's
 ratio. The entry "05.3":{"GOAL A":0.5,"GOAL B":1.5} sets the points of each goal; a number has at most two
 decimals. The entry "05.4":"all-or-nothing" means that only a pass earns points. The entry
-"05.5":{"all-or-nothing":4} means the same, with 4 points. The entry "all parts":"all-or-nothing" is the
-default for all parts that the file does not contain.
+"05.5":{"all-or-nothing":4} also means that only a pass earns points, and sets 4 points. The entry "all
+parts":"all-or-nothing" is the default for all parts that the file does not contain.
 
 A stored result contains the goals that were reached. Therefore, points can be computed again without running
 a check.
@@ -33,7 +33,7 @@ START = "`./course points FILE` writes a file that you can change."
 
 @dataclass(frozen=True)
 class Worth:
-    """The points of a part and of its goals. If no goal has points, only a full pass earns the points."""
+    """The points of a part and of its goals. If no goal has points, only a pass earns the points."""
 
     possible: float
     goals: tuple[Goal, ...]
@@ -66,8 +66,8 @@ class PointsTable:
 def read_points(path: Path | None) -> PointsTable:
     """Return the points of all parts; points in the file at the path `path` replace the author's points.
 
-    If there are private parts, call read_extras() before this function. Raises GradingError if the file is
-    not valid; the message contains the position in the file and a correction.
+    Call read_extras() before this function if there are private parts. Raises GradingError if the file is not
+    valid; the message contains the position in the file and a correction.
     """
     known = {part.check: part for chapter in chapters() for part in parts_of(chapter)}
     given = _read(path) if path else {}

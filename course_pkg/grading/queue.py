@@ -48,8 +48,8 @@ class Task:
     # nbval runs the notebook if `validate` is "all", or if `validate` is "missing" and the notebook does not
     # have all points.
     validate: str = "none"
-    # `parts` contains the parts that are graded; an empty tuple means all parts. If the tuple is not empty,
-    # nbval does not run.
+    # `parts` contains the parts that are graded; an empty tuple means all parts. If parts are selected, nbval
+    # does not run.
     parts: tuple[str, ...] = ()
 
     def grade(self) -> dict[str, Any]:

@@ -15,9 +15,9 @@ SHOWN = 3  # SHOWN is the maximum number of names in the message.
 def require_references(asked: Sequence[str] = (), root: Path | None = None) -> None:
     """Raise GradingError if the solution or the fixtures of a chapter in `asked` are missing.
 
-    By default, the files of all chapters are checked. Grading finds the chapter of a submission by a
-    comparison with all solutions. Therefore, without the solution of a chapter, submissions for this chapter
-    would get no points. `root` is the checkout.
+    By default, the files of all chapters are checked. Grading compares a submission with all solutions to
+    find its chapter. Without the solution of a chapter, submissions for this chapter would therefore get no
+    points. `root` is the checkout.
     """
     missing = list(_missing(asked or chapters(), NotebookStore(root).root))
     if missing:

@@ -1,4 +1,4 @@
-"""The files that a grading run stores in its folder; the next run uses them, even if this run is killed."""
+"""The files that a grading run stores in its folder. The next run uses them, even if this run was killed."""
 
 from __future__ import annotations
 
@@ -66,9 +66,9 @@ class Store:
             return None
 
     def keep(self, grade: Grade) -> None:
-        """Store the grade under its key, unless a part could not be examined.
+        """Store the grade under its key. If a part could not be examined, do not store the grade.
 
-        If a part could not be examined, the next run examines the part again.
+        The next run then examines this part again.
         """
         if any(report.verdict is Verdict.UNDECIDED for report in grade.reports):
             self.drop(grade.key)

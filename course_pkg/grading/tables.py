@@ -40,7 +40,7 @@ def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
 def table_rows(path: Path, what: str) -> list[list[str]]:
     """Return the rows of the CSV file at the path `path`; the separator is a comma, a semicolon or a tab.
 
-    Raises GradingError in the same cases as table_bytes(), and also if the contents are not CSV in UTF-8, or
+    Raises GradingError in the same cases as table_bytes(). Also raises it if the file is not CSV in UTF-8, or
     in UTF-16 with a byte order mark.
     """
     content = table_bytes(path, what)

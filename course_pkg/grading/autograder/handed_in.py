@@ -12,8 +12,8 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.submissions import submissions
 
-# The submission is copied to a folder with this name. The folder does not need the student's name, because
-# Gradescope knows this name.
+# The submission is copied to a folder with this name. Gradescope already knows the student's name, so the
+# folder's name does not contain it.
 STUDENT = "student"
 
 

@@ -1,4 +1,4 @@
-"""`course autograde`: grades the submission in /autograder, and writes results.json even after an error.
+"""`course autograde` grades the submission in /autograder. It writes results.json even after an error.
 
 Gradescope starts the script `run_autograder` as root in a new container for each submission. The folder
 /autograder/source contains the unpacked zip file of the autograder: settings.json, and optionally the folder
@@ -115,8 +115,8 @@ def _grade(submission: Submission, points: PointsTable, run: Run) -> Grade:
 def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
     """Yield a function that runs one part of the submission.
 
-    If the time limit of the autograder is reached, the yielded function stops the part and runs no other
-    part.
+    At the time limit of the autograder, the yielded function stops the running part. It runs no other part
+    after this.
     """
     with SandboxWorker(users=weaker, private=private) as worker:
 
@@ -136,5 +136,5 @@ def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
         finally:
             timer.cancel()
     if weaker:
-        _, lock = users.reserve()  # This call ends the processes that continue after their worker was killed.
+        _, lock = users.reserve()  # This call ends processes that still run because their worker was killed.
         lock.close()

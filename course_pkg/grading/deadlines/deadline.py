@@ -28,7 +28,7 @@ class Deadlines:
 
         The returned time does not include the grace period.
 
-        An extension does not change the time of day of a deadline, even if summer time begins or ends.
+        An extension keeps the time of day of a deadline, even if summer time begins or ends in between.
         """
         deadline = self.by_chapter.get(chapter, self.by_chapter.get(""))
         if deadline is None:

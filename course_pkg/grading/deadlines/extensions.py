@@ -15,7 +15,7 @@ FOLDED = "extension days"  # read_roster() replaces each underscore in a column'
 
 @dataclass(frozen=True)
 class Extensions:
-    """The additional days of each student; the keys are students' names, as in the grades."""
+    """The additional days of each student; the keys are the students' names in the grades."""
 
     by_student: Mapping[str, float] = field(default_factory=dict)
 

@@ -19,7 +19,7 @@ LARGEST = 1_000_000  # LARGEST is the maximum number of bytes of a table.
 
 @dataclass(frozen=True)
 class LatePolicy:
-    """The deduction for lateness is `per_day` percent of the points for each day that has begun.
+    """The deduction for lateness: `per_day` percent of the points for each day that has begun.
 
     A submission that is more than `max_days` days late gets no points.
     """
@@ -41,8 +41,8 @@ def late_policy(
 ) -> LatePolicy:
     """Return the policy from the options --late-per-day (percent) and --late-max-days.
 
-    Raises GradingError if a number is out of range, if `table` or `deadlines` is given without a policy, or
-    if a policy is given without `table` and `deadlines`.
+    Raises GradingError if a number is out of range. A policy also needs `table` or `deadlines`, and these two
+    arguments need a policy; otherwise, GradingError is raised.
     """
     if (table or deadlines) and per_day is None and max_days is None:
         raise GradingError(
@@ -79,7 +79,7 @@ class LateTable:
         return self.rows.get((student, chapter), self.rows.get((student, ""), 0.0))
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the submissions; if the table contains a submission, its late days come from the table."""
+        """Return the submissions; for a submission in the table, the late days come from the table."""
         return [
             self._late(each)
             if (each.student, each.chapter) in self.rows or (each.student, "") in self.rows
@@ -92,7 +92,7 @@ class LateTable:
         return replace(submission, late=self.days(submission.student, submission.chapter), notes=notes)
 
     def strangers(self, submissions: Sequence[Submission]) -> int:
-        """Return how many students of the table have no submission; perhaps their names are misspelt."""
+        """Return how many students in the table have no submission; their names may be misspelt."""
         return len({student for student, _ in self.rows} - {each.student for each in submissions})
 
 

@@ -16,7 +16,7 @@ LAST, BEST = "last", "best"
 
 @dataclass(frozen=True)
 class Lateness:
-    """The deadlines of a run; the function `when` returns the time at which a submission was handed in."""
+    """The deadlines of a run, and the function `when`, which returns the time of a submission."""
 
     deadlines: Deadlines
     when: Callable[[Submission], datetime | None]
@@ -60,7 +60,7 @@ class Lateness:
 def attempts_to_grade(
     submissions: Sequence[Submission], attempts: str, when: Callable[[Submission], datetime | None]
 ) -> list[Submission]:
-    """Return all attempts if the best attempt counts, or only the last attempts if the last attempt counts.
+    """Return all attempts if the best attempt counts; return the last attempts if the last attempt counts.
 
     If all attempts have known and different times, the last attempt is the attempt with the latest time.
     Otherwise, the last attempt is the attempt with the highest number or the newest file.
@@ -101,7 +101,7 @@ def _best(groups: Iterable[list[Grade]]) -> Iterator[Grade]:
 def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime | None]) -> Submission:
     """Return the last attempt of a student for a chapter.
 
-    If a time is unknown, or two times are equal, the result is the last attempt in `given`.
+    If a time is unknown or two times are equal, return the last item of `given`.
     """
     times = [when(each) for each in given]
     stamps = [moment.timestamp() for moment in times if moment]

@@ -41,9 +41,9 @@ def zone_of(name: str) -> tzinfo:
 def moment_of(text: str, zone: tzinfo | None) -> datetime | None:
     """Return the date and time in `text`, or None if `text` does not contain a date and time.
 
-    `zone` is used if the text contains no time zone. If neither `text` nor `zone` contains a time zone, the
-    result is None. At the end of summer time, one hour occurs twice; the result is then the first of the two
-    times.
+    `zone` is used if the text contains no time zone. If there is no time zone in `text` and `zone` is None,
+    the result is None. At the end of summer time, one hour occurs twice. For a time in this hour, the result
+    is the earlier time.
     """
     text = " ".join(text.split())
     if found := ISO.fullmatch(text):

@@ -1,10 +1,10 @@
 """Finds the time of a submission in a table, or in the files that a platform adds to a download.
 
-A table such as times.csv has the columns student and submitted, and optionally chapter and file. If times.csv
-is in the folder of the submissions, the file is used without an option. Moodle's grading worksheet contains
-the time in the column "Last modified (submission)"; a student's row is found by the participant number in the
-name of the student's folder. For Gradescope, the time is the value of `:created_at` in
-submission_metadata.yml. For nbgrader, the time is in submitted/STUDENT/ASSIGNMENT/timestamp.txt; this file is
+A table such as times.csv has the columns student and submitted, and optionally chapter and file. A times.csv
+in the folder of the submissions is used even without an option. Moodle's grading worksheet contains the time
+in the column "Last modified (submission)". The name of the student's folder contains the participant number,
+which identifies the student's row. For Gradescope, the time is the value of `:created_at` in
+submission_metadata.yml. For nbgrader, the time is in submitted/STUDENT/ASSIGNMENT/timestamp.txt. This file is
 read only with `--times nbgrader`.
 """
 

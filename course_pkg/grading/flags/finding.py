@@ -52,8 +52,8 @@ def with_flags(
 ) -> list[Grade]:
     """Search the graded submissions for flags of the kinds in `names`; return the grades with these flags.
 
-    Submissions that do not count, such as earlier attempts, get no flags. The flags of a grade from an
-    earlier run do not change if this run has no submission for this grade.
+    Submissions that do not count, such as earlier attempts, get no flags. A grade from an earlier run keeps
+    its flags if this run has no submission for the grade.
     """
     graded = {_key(grade) for grade in grades}
     counting = [each for each in submissions if each.chapter and _key(each) in graded]

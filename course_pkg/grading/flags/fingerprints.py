@@ -1,9 +1,9 @@
 """Fingerprints of code: features that do not depend on names, on comments, or on the order of statements.
 
-There are three kinds of features. The first is a statement, with the block that contains it. The second is a
-pair of statements: one sets a name, and the other uses this name. The third is the set of all statements of a
-function or class. The order of statements is ignored, because a student who copies an answer can reorder its
-functions and independent statements.
+There are three kinds of features. The first kind is a statement, with the block that contains it. The second
+kind is a pair of statements: one statement sets a name, and the other statement uses this name. The third
+kind is the set of all statements of a function or class. The order of statements is ignored: a student who
+copies an answer can reorder functions and independent statements.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from course_pkg.grading.flags.syntax import UNREADABLE, is_python, tree
 from course_pkg.grading.flags.tokens import cpp_statements
 from course_pkg.grading.flags.work import Answer
 
-# If a function, a class or another block contains at least `BLOCK` statements, the block is one feature.
+# A function, a class or another block with at least `BLOCK` statements is one feature.
 BLOCK = 3
-# A name with more pairs than this is ignored, because a name in many lines is not characteristic.
+# A name in more than `PAIRS` pairs is ignored, because a name that occurs often is not characteristic.
 PAIRS = 400
 LONG = 12  # A characteristic string has at least this many characters.
 LINE = 500  # Comments and strings in longer lines of C++ are ignored.
@@ -45,7 +45,7 @@ class Fingerprint:
 
 
 def fingerprint(answer: Answer) -> Fingerprint:
-    """Return the features of an answer, or no features if it cannot be parsed as Python or C++."""
+    """Return the features of an answer, or no features if the answer is not valid Python or C++."""
     try:
         return _fingerprint(answer)
     except UNREADABLE:
@@ -66,7 +66,7 @@ def _fingerprint(answer: Answer) -> Fingerprint:
 
 
 def _features(made: list[Statement]) -> Iterator[str]:
-    """Yield the features of an answer; the second occurrence of a feature is a different feature."""
+    """Yield the features of an answer; a second occurrence of a feature counts as another feature."""
     counts: Counter[str] = Counter()
     for feature in [*_single(made), *_pairs(made), *_blocks(made)]:
         counts[feature] += 1

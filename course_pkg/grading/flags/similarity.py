@@ -1,17 +1,19 @@
 """Finds students with identical or nearly identical code. Code that many students have is ignored.
 
-Three kinds of code are ignored: handed-out code, code that more than a tenth of the class has, and answers
-with fewer than ten statements. The rest of the code is divided into features (see fingerprints.py), and each
-feature has a weight. If s of n students have the feature, its weight is log2(n / s) bits. The similarity of
-two answers is twice the weight of their common features, divided by the sum of the weights of both answers.
+Three kinds of code are ignored: code that students get with the exercise, code that more than a tenth of the
+class has, and answers with fewer than ten statements. The rest of the code is divided into features (see
+fingerprints.py), and each feature has a weight. If s of n students have a feature, its weight is log2(n / s)
+bits. The similarity of two answers is twice the weight of their common features, divided by the sum of the
+weights of both answers.
 
 Two short answers to the same exercise can be similar by chance. Therefore, a pair of students is flagged only
-in one of two cases. In the first case, they have one nearly identical answer, and enough of the code, or of
-the comments, strings and names, occurs in the answer of at most one other student. In the second case, a pair
-of students has several nearly identical answers. For each of these answers, p is the fraction of all pairs of
-students whose two answers are at least as similar. This fraction is an estimate of the probability that the
-similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than MARGIN above log2 of the
-number of pairs. On average, fewer than one pair of a class is then flagged by coincidence.
+in one of two cases. In the first case, they have one nearly identical answer, in which enough features, or
+enough comments, strings and names, are rare. Here, rare means that at most one other student has the same. In
+the second case, the pair has several nearly identical answers. For each of these answers, p is the fraction
+of all pairs of students with answers that are at least as similar. This fraction is an estimate of the
+probability that the similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than
+MARGIN above log2 of the number of pairs. On average, the course then flags fewer than one pair of a class by
+coincidence.
 """
 
 from __future__ import annotations
@@ -31,7 +33,7 @@ COMMON = 0.1  # Code is ignored if more than this fraction of the class has it.
 FEW = 3  # Even in a small class, code is compared if at most this many students have it.
 SMALL = 30  # For a smaller class, the weights are computed as for a class of this size.
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
-SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
+SAME = 0.95  # If only one answer causes a flag, its similarity must be at least this high.
 # A rare feature of the code occurs in the answers of the pair, and in the answer of at most one other
 # student. One answer is enough to flag a pair if the two answers share at least `OWN_CODE` rare features.
 OWN_CODE = 15
@@ -106,7 +108,7 @@ class Exercise:
         return self._having[feature]
 
     def counts(self, feature: str) -> bool:
-        """Return whether a feature is compared: only few students have it, and it was not handed out."""
+        """Return whether a feature is compared: few students have it, and the exercise cell does not."""
         return feature not in self._given and self._having[feature] <= self._most
 
     @cached_property
@@ -153,7 +155,7 @@ class Exercise:
 
     @cached_property
     def _shared(self) -> dict[Couple, float]:
-        """For each pair of answers with features in common, the total weight of these features in bits."""
+        """The total weight in bits of the common features of each pair of answers."""
         holders: dict[str, list[int]] = {}
         for number, features in self._code.items():
             for feature in features:

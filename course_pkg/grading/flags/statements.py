@@ -1,6 +1,6 @@
 """The statements of an answer in a normal form.
 
-The normal form does not depend on names, comments, spaces and the order of operands.
+The normal form does not depend on names, comments and spaces. It does not depend on the order of operands.
 
 One symbol replaces all names that the program defines: variables, parameters, functions, and attributes.
 Names that are defined elsewhere are not replaced, because they show what the code does. Docstrings,
@@ -18,8 +18,8 @@ from course_pkg.grading.flags.syntax import Function, is_text
 COMMUTATIVE = (ast.Add, ast.Mult, ast.BitAnd, ast.BitOr, ast.BitXor)
 MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE}
 BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
-# A `Name` contains the number of the scope that binds the name (0 is the module, -1 means attributes), and
-# the name.
+# A `Name` contains a name, and the number of the scope that binds this name. The number 0 is the module, and
+# -1 means attributes.
 Name = tuple[int, str]
 
 

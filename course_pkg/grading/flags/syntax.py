@@ -55,10 +55,10 @@ def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
 
 
 def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
-    """Return the mapping `known`, with an entry for each name in `module` that refers to an imported object.
+    """Return the mapping `known`, plus the names in `module` that refer to imported objects.
 
-    After `file = Path("x")`, the result contains "pathlib.Path" for "file", so that calls of the path's
-    methods can be found.
+    For example, after `file = Path("x")`, the result contains "pathlib.Path" for "file". A search then finds
+    calls of the path's methods.
     """
     names = {**known, **imports([module])}
     assigned = [node for node in ast.walk(module) if isinstance(node, ast.Assign)]
@@ -100,7 +100,7 @@ def _bodies(module: ast.Module) -> Iterator[list[ast.stmt]]:
 
 
 def _body(answer: Answer) -> str:
-    """Return the source; an empty line replaces a cell magic, such as %%writefile, in the first line."""
+    """Return the source with an empty line in place of a cell magic (%%…) in the first line."""
     if answer.path and answer.source.lstrip().startswith("%%"):
         return "\n" + answer.source.lstrip().partition("\n")[2]
     return answer.source

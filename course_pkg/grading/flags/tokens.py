@@ -65,7 +65,7 @@ def _neighbours(tokens: list[_Token]) -> Iterator[tuple[_Token | None, _Token, _
 
 
 def _declares(before: _Token | None, token: _Token, after: _Token | None) -> bool:
-    """Return whether the program declares the name `token`; a declared name is directly after a type."""
+    """Return whether the program declares the name `token`: a declared name comes directly after a type."""
     if before is None or after is None or token.kind not in Name or after.text in (":", "<"):
         return False
     typed = before.kind in Keyword.Type or before.kind in Name or before.text in LEADS

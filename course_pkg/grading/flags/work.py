@@ -73,7 +73,7 @@ Found = tuple[Work, Flag]  # The function `find` of each kind of flag yields suc
 
 
 def group_of(chapter: str, submissions: Sequence[Submission], plan: Plan) -> Group:
-    """Return the answers in these submissions, which are all for the chapter `chapter`."""
+    """Return the answers in these submissions; all of them are for the chapter `chapter`."""
     notebook = read(NotebookStore().solutions([chapter])[0])
     cells = code_cells(notebook)
     parts = {part: cell["source"] for cell in cells if (part := exercise_of(cell))}

@@ -1,6 +1,6 @@
 """Lists and reads the files in a submitted folder or zip. A zip is never unpacked.
 
-Links are not followed, no file outside the folder or zip is opened, and each file has a size limit.
+It does not follow links and does not open files outside the folder or zip. Each file has a size limit.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from course_pkg.grading import clean
 
 LARGEST = 20 << 20  # LARGEST is the maximum number of bytes of one notebook.
 ALTOGETHER = 4 << 30  # ALTOGETHER is the maximum number of bytes of all unpacked notebooks in a zip.
-# This is the maximum compression ratio of a file. A usual notebook has a compression ratio of 10, or of 100
-# with much repetition.
+# This is the maximum compression ratio of a file. The ratio of a usual notebook is 10; with much repetition,
+# it is 100.
 RATIO = 400
 SMALL = 1 << 20  # The compression ratio of files with fewer bytes than this is not checked.
 MEMBERS = 200_000

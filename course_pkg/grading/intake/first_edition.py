@@ -1,4 +1,4 @@
-"""Notebooks of the course's first edition, in which some chapters and exercises have other numbers."""
+"""Finds notebooks of the course's first edition, in which some chapters and exercises have other numbers."""
 
 from __future__ import annotations
 
@@ -73,8 +73,8 @@ def first_edition(name: str, cells: Sequence[StudentCell], by_ids: str) -> Renum
     """Return the chapter of the first edition to which a notebook belongs, or None for a newer notebook.
 
     `name` is the notebook's file name, in lower case with underscores. `by_ids` is the chapter that has the
-    most cell ids in common with the notebook. The chapter number alone is not sufficient, because another
-    chapter has this number in the current edition.
+    most cell ids in common with the notebook. The chapter number alone is not sufficient, because in the
+    current edition, this number belongs to another chapter.
     """
     number = _number(cells)
     if number == CHOOSE.number and (CHOOSE.title in _titles(cells) or _has_last_part(cells)):

@@ -15,8 +15,8 @@ from course_pkg.grading.intake.archive import is_litter, leads_out
 from course_pkg.grading.intake.naming import WRAPPING, Submitters, claims, unwrapped
 from course_pkg.grading.store import FOLDER
 
-# DEPTH is the maximum depth of a student's folder, because a platform can put this folder into one or two
-# other folders.
+# DEPTH is the maximum depth of a student's folder. A platform can put this folder into one or two other
+# folders.
 DEPTH = 3
 PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 
@@ -51,8 +51,8 @@ def handed_in_nothing(
 def require_other_folder(source: Path, out: Path) -> None:
     """Raise GradingError if `out` is `source`, or a non-empty folder inside `source`.
 
-    In the folder of the submissions, the reports would be mixed with the submissions. If `out` contains the
-    results of an earlier run, no error is raised.
+    Otherwise, the reports would be mixed with the submissions. If `out` contains the results of an earlier
+    run, no error is raised.
     """
     if not source.is_dir() or not out.is_dir() or (out / FOLDER).is_dir():
         return
@@ -97,7 +97,7 @@ def _path_inside(source: Path, folder: Path | None) -> str:
 
 
 def _leads_to(parts: tuple[str, ...], folders: Sequence[str]) -> bool:
-    """Return whether a folder is equal to a folder in `folders`, contains such a folder, or is inside one."""
+    """Return whether a folder is equal to a folder in `folders`, contains one, or is inside one."""
     inner = (PurePosixPath(folder).parts for folder in folders)
     return any(parts[: len(each)] == each[: len(parts)] for each in inner)
 

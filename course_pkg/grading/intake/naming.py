@@ -3,9 +3,9 @@
 An instructor or a platform has put the student's name into the name of a folder or file.
 
 A file that an instructor has collected has the path SUBMISSIONS/<student>/NN_topic.ipynb; subfolders are
-allowed. A file from Moodle has the path Full Name_12345_assignsubmission_file_/NN_topic.ipynb, or is one file
-without a folder. A file from Canvas has the name lastfirst_LATE_123_456_NN_topic-2.ipynb, in which LATE marks
-a late submission, and -2 means the third attempt. A file from Gradescope has the path
+allowed. A file from Moodle has the path Full Name_12345_assignsubmission_file_/NN_topic.ipynb, or it is a
+single file without a folder. A file from Canvas has the name lastfirst_LATE_123_456_NN_topic-2.ipynb. LATE
+marks a late submission, and -2 means the third attempt. A file from Gradescope has the path
 assignment_9_export/submission_456/NN_topic.ipynb, and submission_metadata.yml contains the students' names. A
 file from nbgrader has the path submitted/<student>/<assignment>/NN_topic.ipynb.
 
@@ -50,11 +50,11 @@ class Claim:
 
 
 def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
-    """Return the students to whom a file belongs: one student, or all members of a group.
+    """Return the students to whom a file belongs: one student or all members of a group.
 
     The student's name is read only from the first folder, or from the file name if there is no folder. The
-    platform chose this name. Students choose all other names in the path, and could use another student's
-    name.
+    platform or the instructor chose this name. Students choose all other names in the path, and could use
+    another student's name.
     """
     *folders, name = parts
     first = folders[0] if folders else name
@@ -118,7 +118,7 @@ def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
 
 
 def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
-    """Return each folder's submitters in a Gradescope export: student numbers, email addresses or names."""
+    """Return the submitters (numbers, email addresses or names) for each folder of a Gradescope export."""
     return {
         folder: [_submitter(each) or folder for each in record.get(":submitters") or [{}]]
         for folder, record in gradescope_records(content).items()

@@ -2,11 +2,11 @@
 
 A package is a folder with a package.xml, at any depth below the student's folder. The folders that catkin
 writes (build, devel, install) are left out. The name of a package is the name in its package.xml, as in ROS.
-However, if only the name of the folder is the name of a package that a part needs, the name of the folder is
-used.
+However, a part may need a package with the name of the folder, and no package with the name in package.xml.
+Then the name of the folder is used.
 
-A link or a device in a package is not read, and a note in the grade reports this. A package that is too large
-is not examined. If two packages have the same name, the newest package is used.
+Links and devices in a package are not read; a note in the grade reports them. A package that is too large is
+not examined. If two packages have the same name, the newest package is used.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ class Found:
     def called(self, names: Sequence[str]) -> str:
         """Return the name of the package, the name of its folder, or "".
 
-        `names` contains the names of the packages that parts need. The package's name has priority over
-        the folder's name. If `names` contains none of the two names, return "".
+        `names` contains the names of the packages that parts need. The package's name has priority over the
+        folder's name. If `names` contains no such name, return "".
         """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
@@ -101,8 +101,8 @@ def read_package(root: tuple[str, ...], members: Sequence[Member]) -> Found:
     manifest = next((content for name, content, _ in contents if name == MANIFEST), None)
     if manifest is None:
         return replace(found, problem=f"The package {clean.line(root[-1], 60)} was not graded. {notes[0]}")
-    # Many platforms do not store permissions. A student has to make a program executable before the student
-    # can run it. Therefore, if no file is executable, the platform has probably lost the permissions.
+    # Many platforms do not store permissions. A student must make a program executable before it can run.
+    # Therefore, if no file is executable, the platform has probably lost the permissions.
     lost = not any(executable for *_, executable in contents)
     files = [
         work_file(name, content, executable=executable or (lost and content.startswith(b"#!")))
@@ -133,8 +133,8 @@ def attached(
     Return all submissions.
 
     `given` contains the submissions with notebooks, and `packages` contains the packages of each student.
-    `wanted` contains the graded chapters; an empty list means all chapters. Without a notebook for a chapter,
-    a package becomes a submission only if a part of the chapter needs a file of the package.
+    `wanted` contains the graded chapters; an empty list means all chapters. If a student has no notebook for
+    a chapter, a package becomes a submission only if a part of the chapter needs one of its files.
     """
     if not packages:
         return list(given)
@@ -165,10 +165,9 @@ def _made(
     asked: Mapping[str, set[str]],
     given: Submission | None,
 ) -> Submission | None:
-    """Return the submission `given`, and add the packages that the chapter needs.
+    """Return the submission `given` with the packages that the chapter needs.
 
-    If `given` is None, return a submission that contains only the packages, or None if the chapter needs none
-    of them.
+    If `given` is None, return a submission with only the packages, or None if the chapter needs no package.
     """
     taken, notes = [], []
     for name in asked:

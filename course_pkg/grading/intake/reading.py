@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from course_pkg.errors import GradingError
 from course_pkg.types.fields import Plain
 
-# BRACKETS is the maximum number of lists and objects in a file. Without this limit, a file of 20 MiB with
-# short lists would need half a GB of memory.
+# BRACKETS is the maximum number of lists and objects in a file. Without a limit, a file of 20 MiB with short
+# lists would need half a GB of memory.
 BRACKETS = 500_000
 CELLS = 50_000
 PREFIXES = {
@@ -107,8 +107,8 @@ def _parsed(content: bytes) -> dict[str, Plain]:
 def _all_cells(data: dict[str, Plain]) -> object:
     """Return a notebook's cells; in notebooks up to format version 3, the cells are in the list "worksheets".
 
-    nbformat is not used, because its validation of a long notebook takes seconds and writes the whole content
-    to a log.
+    This module does not use nbformat. Its validation of a long notebook takes seconds and writes the whole
+    notebook to a log.
     """
     sheets = data.get("worksheets")
     if "cells" in data or not isinstance(sheets, list):

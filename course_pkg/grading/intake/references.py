@@ -1,4 +1,4 @@
-"""Finds the chapter to which a submission belongs, by a comparison with the course's solutions."""
+"""Finds the chapter of a submission by comparing the submission with the course's solutions."""
 
 from __future__ import annotations
 
@@ -70,9 +70,9 @@ class References:
         return self.by_ids(cells)
 
     def by_ids(self, cells: Sequence[StudentCell]) -> str:
-        """Return the chapter whose solution has the most ids in common with the cells.
+        """Return the chapter with the solution that has the most ids in common with the cells.
 
-        If too few ids are equal, return "".
+        If fewer than `ENOUGH` ids are equal, return "".
         """
         shared = Counter(chapter for cell in cells for chapter in self._ids.get(cell.id, []))
         chapter, count = max(shared.items(), key=lambda item: (item[1], item[0]), default=("", 0))

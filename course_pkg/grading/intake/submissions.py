@@ -1,4 +1,4 @@
-"""The submissions: one for each chapter and student, and one for each unusable file."""
+"""Reads the submissions: one for each chapter and student, and one for each unusable file."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ SHOWN = 3  # SHOWN is the maximum number of file names in a sentence.
 
 @dataclass(frozen=True)
 class _Found:
-    """A submission; `rank` decides which one is graded if a student has several submissions for a chapter."""
+    """A submission; `rank` decides which of a student's submissions for a chapter is graded."""
 
     submission: Submission
     attempt: int

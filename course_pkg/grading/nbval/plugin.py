@@ -1,8 +1,8 @@
 """A pytest plug-in that reports the result of each part, after nbval has run a notebook of the course.
 
-The run of pytest fails if the check of a part failed, did not run, or is missing. The result of the run is
-only feedback, because it depends on the notebook's outputs, which student code can forge. If the environment
-variable COURSE_NBVAL_RECORD contains the name of a file, one JSON object per cell is appended to this file.
+The run of pytest fails if the check of a part failed, did not run, or is missing. The result is only
+feedback: it depends on the notebook's outputs, which student code can forge. The environment variable
+COURSE_NBVAL_RECORD can contain the name of a file. Then one JSON object per cell is appended to this file.
 """
 
 from __future__ import annotations

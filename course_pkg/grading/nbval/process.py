@@ -67,11 +67,11 @@ def main() -> None:
 def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
     """Run the command `command` with limits for its memory and its progress.
 
-    Kill the processes of the command if they use too much memory, or if the file `record` does not grow for
-    the time `silence` (s).
+    Kill the processes of the command if they use too much memory. Also kill them if the file `record` does
+    not grow for the time `silence` (s).
 
-    Returns True if the processes were killed because the file did not grow. Without the limit `silence`,
-    nbval would wait for ever if the connections of a kernel are damaged.
+    Returns True if the processes were killed because the file did not grow. If the connections of a kernel
+    are damaged, nbval would wait for ever without the limit `silence`.
     """
     size, deadline = 0, Deadline(silence)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
@@ -101,7 +101,7 @@ def _unfinished(notebook: Notebook, record: Path, cell: float) -> str:
 
 
 def _remove_overview(cell: Cell) -> None:
-    """Empty each cell that shows the student's progress, because a graded run has no progress record."""
+    """Empty the cells that show the student's progress, because a graded run has no progress record."""
     if cell["cell_type"] == "code" and OVERVIEW.search(cell["source"]) and not check_of(cell):
         cell["source"] = ""
         cell["outputs"] = []
@@ -197,7 +197,7 @@ def _run_check(sock: socket.socket) -> None:
     from course_pkg.checking.channel import Channel
     from course_pkg.checking.processes.runner import run_check
 
-    # The memory is limited, because student code can send the check any number of bytes.
+    # The memory is limited because student code can send any number of bytes to the check.
     namespaces.limit(AS=confinement.CHECK_RUNNER)
     run_check(Channel(sock))
 

@@ -13,7 +13,7 @@ from course_pkg.grading.nbval.findings import finding
 from course_pkg.grading.plan import Plan
 from course_pkg.sandbox.linux.bubblewrap import sandbox_command
 
-# CELL is the time limit of a cell in s, on an idle machine. With this limit, nbval waits less than 60 s for a
+# CELL is the time limit of a cell in s, on an idle machine. This limit makes nbval wait less than 60 s for a
 # blocked kernel.
 CELL = 40
 LIMIT = 600.0  # LIMIT is the time limit of a notebook in s; the longest chapter takes 100 s.

@@ -1,9 +1,9 @@
-"""Finds the cells that an answer needs, because these cells define names that occur in the answer.
+"""Finds the cells that define the names which an answer uses.
 
 An answer is run only with the cells that its check needs (see checking/fixtures.py). However, an answer can
 also use names from other cells, such as an import in a cell above or a function of an earlier answer.
-Therefore, the cells that define these names also run. If one of these cells uses names that further cells
-define, the further cells run, too.
+Therefore, the cells that define these names also run. These cells can use names that other cells define; then
+the other cells run, too.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class _Cell:
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
     """Return the sources of the cells in `above` that the code `answer` needs, in their order.
 
-    The code in `before` always runs, so no other cell is needed for the names that this code defines.
+    The code in `before` always runs, so the names that it defines need no other cell.
     """
     given = KNOWN | _read(before).gives
     cells = [_read(source) for source in above]

@@ -1,8 +1,8 @@
 """Removes nbval's markers and cell magics from a student's code, because both change how the cell runs.
 
 If any line contains a comment such as `# NBVAL_SKIP`, nbval treats the cell differently. If the first line is
-a cell magic, IPython passes the whole cell to this magic. With such a comment or magic, a student's answer
-could avoid the check.
+a cell magic, IPython passes the whole cell to this magic. Such a comment or magic could prevent the check of
+a student's answer.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def defuse(source: str, first_line: str = "") -> Defused:
 
 
 def magic_of(source: str) -> str:
-    """Return the line of the magic to which IPython would pass the whole cell, or ""."""
+    """Return the first line if it is a magic to which IPython passes the whole cell; otherwise, return ""."""
     return first[0].strip() if (first := _as_ipython_reads(source)) and first[0].startswith("%%") else ""
 
 
@@ -98,7 +98,7 @@ def _with_magic(source: str, first_line: str) -> tuple[str, list[str]]:
 
 
 def _without_markers(source: str) -> tuple[str, list[str]]:
-    """Put brackets around each nbval marker, so that nbval ignores the marker."""
+    """Put brackets around each nbval marker; nbval then ignores the marker."""
     lines = source.splitlines(keepends=True)
     found = [_marker(line) for line in lines]
     if not any(found):

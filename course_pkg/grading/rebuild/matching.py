@@ -1,9 +1,10 @@
 """Finds the cells of a student's notebook that answer an exercise, even if they were moved or copied.
 
-The cell of an exercise is found by its id. A copied cell has a new id, so the cell is also found by its
-metadata. If no cell has the right id or metadata, the cell is found by the names that it defines, or by the
-file that it writes. If there are several such cells, the last non-blank cell is used. If the student has
-split the answer into several cells, the cells directly below also belong to the answer.
+The cell of an exercise is found by its id. A copied cell has a new id, so the course also searches for the
+exercise in the metadata of cells. If no cell has the right id or metadata, the course searches for a cell
+that defines the right names or writes the right file. If several cells are found, the last non-blank cell is
+used. If the student has split the answer into several cells, the cells directly below the found cell also
+belong to the answer.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from course_pkg.grading.rebuild.defusing import TAGS
 from course_pkg.grading.rebuild.wanted import Wanted, defined, lent, used, written_path
 
 LONGEST = 100_000  # An answer may have at most this many characters.
-BELOW = 50  # Of the cells below an exercise, at most this many can be part of the answer.
+BELOW = 50  # At most this many cells below an exercise can be part of the answer.
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ class Matching:
             yield self._run([*run, *self._rest(run[-1], above, wanted)])
 
     def _rest(self, last: int, above: _Above, wanted: Wanted) -> list[int]:
-        """Return the indices of the cells below the cell `last` that the student added to the answer."""
+        """Return the indices of the cells below the cell `last` that belong to the answer."""
         taken: list[int] = []
         pending: list[int] = []
         for place in range(last + 1, min(last + 1 + BELOW, len(self._cells))):
@@ -171,7 +172,7 @@ class _Above:
         return not (anew or cell.source.lstrip().startswith("%%"))
 
     def needs(self, source: str, wanted: Wanted) -> bool:
-        """Return whether a cell that the student added is part of this answer."""
+        """Return whether a cell that the student added belongs to this answer."""
         lines = [line for line in source.splitlines() if line.strip()]
         if not lines or source.lstrip().startswith(("%%", "!")):
             return False

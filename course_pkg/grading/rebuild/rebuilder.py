@@ -1,7 +1,7 @@
 """Builds the notebook that is graded.
 
 The graded notebook is the course's solution notebook (the reference) with a student's answers in the exercise
-cells. All other cells of the student are left out.
+cells. The student's other cells are left out.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Rebuilt:
     """The notebook that is graded; each exercise is either in `answers` or in `missing`."""
 
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
-    # `answers` contains the source that runs for each exercise, even if it is the unchanged exercise cell.
+    # `answers` contains the source that runs for each exercise; it can be the unchanged exercise cell.
     answers: Mapping[str, str]
     # `missing` contains the exercises without an answer; each value is the reason that the student sees.
     missing: Mapping[str, str] = field(default_factory=dict)

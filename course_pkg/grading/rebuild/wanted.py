@@ -1,7 +1,7 @@
 """Finds the names and files that an exercise asks for, and the names that a student's cell defines.
 
-A student's code is searched line by line. It is not parsed, because some code makes a parser very slow, or
-crashes it.
+A student's code is searched line by line. The code is not parsed, because some code makes a parser very slow
+or crashes it.
 """
 
 from __future__ import annotations

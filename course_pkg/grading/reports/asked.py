@@ -28,7 +28,7 @@ class Column:
 class Asked:
     """The chapters and the selected parts of a run; `due` returns whether a chapter's deadline has passed.
 
-    Reports also contain the chapters of earlier runs. Before the deadline, a chapter counts only for students
+    Reports also contain the chapters of earlier runs. Before its deadline, a chapter counts only for students
     who have submitted it.
     """
 
@@ -40,8 +40,8 @@ class Asked:
     def counted(self, student: str, grades: Sequence[Grade], asked: Sequence[str]) -> list[str]:
         """Return the chapters in `asked` that count for a student who has the grades `grades`.
 
-        If a student has only results from earlier runs, the student has probably left the course. In this
-        case, only the chapters with a grade count.
+        A student who has only results from earlier runs has probably left the course. For this student, only
+        the chapters with a grade count.
         """
         there = {grade.chapter for grade in grades}
         if there and all(grade.absent for grade in grades):

@@ -13,7 +13,7 @@ from course_pkg.files import write_atomically
 def put_table(path: Path, rows: Sequence[Sequence[str]], encoding: str = "utf-8") -> None:
     """Write rows to a CSV file (RFC 4180).
 
-    Before you call this function, apply clean.cell() to each text that a student has written.
+    The caller must apply clean.cell() to each text from a student.
     """
     buffer = io.StringIO()
     csv.writer(buffer).writerows(rows)

@@ -23,8 +23,8 @@ ABSENT = "These results are from an earlier run. In the latest run, nothing was 
 class Book:
     """The grades of a class, by student and chapter.
 
-    A grade gets a note if the code of the submission ran without a sandbox. A grade from an earlier grading
-    run gets a note if the student handed in nothing for the chapter in the latest run.
+    A grade gets a note if the submission's code ran without a sandbox. A grade from an earlier run gets a
+    note if the student submitted nothing for the chapter in the latest run.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Book:
 
     @property
     def identified(self) -> list[str]:
-        """The students whom a platform can identify; only these students get a row in a platform's file."""
+        """The students whom a platform can identify; a platform's file has rows only for these students."""
         return [student for student in self.students if student and student not in self.class_list.unclear]
 
     def of(self, student: str) -> list[Grade]:

@@ -38,7 +38,7 @@ class Frame:
         )
 
     def page(self, title: str, body: Iterable[str]) -> str:
-        """Return a page; `body` is HTML, and `title` is text whose HTML characters are escaped here."""
+        """Return a page; `body` is HTML. This method escapes the HTML characters in `title`."""
         inside = "\n".join(body)
         title = f"<title>{clean.html(clean.line(title))}</title>"
         return f"{self._head}{title}\n</head>\n<body>\n<main>\n{inside}\n</main>\n</body>\n</html>\n"
@@ -72,7 +72,7 @@ def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numb
     The first cell of each row is a header cell. The last columns contain numbers; `numbers` is the number of
     these columns.
 
-    The cells in `rows` are HTML; `caption` and `head` are text whose HTML characters are escaped here.
+    The cells in `rows` are HTML. This function escapes the HTML characters in `caption` and `head`.
     """
     numeric = len(head) - numbers
 

@@ -16,7 +16,7 @@ from course_pkg.grading.roster.class_list import ClassList
 
 Writer = Callable[[Book, Path], None]
 # Only the reports in WITH_ABSENT contain students who have no submission in this run. The reports for
-# platforms do not contain these students, so that a platform does not change their points.
+# platforms do not contain these students, so a platform does not change their points.
 WITH_ABSENT = ("class_page", "feedback", "records", "table")
 # A platform stores one score from each report in OF_ASSIGNMENT, so these reports contain only the chapters of
 # this run.

@@ -133,7 +133,7 @@ def _flags_by_part(grade: Grade) -> dict[str, list[Flag]]:
 
     A flag belongs to a part if the flag is about the part's cell or about a file of the part.
 
-    If a flag belongs to no part, the flag is added to the first part.
+    A flag that belongs to no part is added to the first part.
     """
     found: dict[str, list[Flag]] = {}
     checks = [report.check for report in grade.reports]

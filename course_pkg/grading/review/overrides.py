@@ -2,9 +2,9 @@
 
 An instructor can edit overrides.csv on the review page or in a spreadsheet.
 
-The columns are student, chapter, part, points, comment and answer. When the course writes the file,
-additional columns and empty lines do not change. A part is written as "Part 05.10", because a spreadsheet
-would change 05.10 to 5.1. The column answer contains a digest of the reviewed code, or is empty.
+The columns are student, chapter, part, points, comment and answer. When the course writes the file, it does
+not change additional columns and empty lines. A part is written as "Part 05.10", because a spreadsheet would
+change 05.10 to 5.1. The column answer contains a digest of the reviewed code, or is empty.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ class Overrides:
                 )
 
     def changed(self, changes: Mapping[Key, Override | None]) -> bytes:
-        """Return the new content of the file; if the value of a key in `changes` is None, remove the row."""
+        """Return the new content of the file. A key with the value None in `changes` removes its row."""
         lines: list[tuple[str, ...] | None] = list(self.lines)
         for key, row in changes.items():
             place = self.places.get(key)

@@ -1,4 +1,4 @@
-"""The server of the review page; it refuses requests without its token, and requests from other pages."""
+"""The server of the review page; it refuses requests that have no token or come from another page."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Handler(PageHandler):
     def initialize(
         self, session: Session, token: str, port: Callable[[], int], templates: Environment
     ) -> None:
-        """Store the data that all handlers share."""
+        """Store the data that all handlers use."""
         self.session, self.token, self.port, self.templates = session, token, port, templates
 
     def prepare(self) -> None:

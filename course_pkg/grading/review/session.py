@@ -24,7 +24,7 @@ from course_pkg.grading.review.overrides import (
 )
 from course_pkg.types.fields import Plain
 
-QUIET = 0.3  # After another program has changed the file, the file can be incomplete for this time in s.
+QUIET = 0.3  # For this time in s after another program has changed the file, the file can be incomplete.
 Rows = Mapping[Key, Override | None]
 
 
@@ -39,8 +39,8 @@ class Step:
 class Session:
     """The review of one folder of results.
 
-    Each method that changes a row first reads overrides.csv again, so that changes by another program are not
-    lost. The methods raise GradingError if a row of the file is wrong, and OSError if the file cannot be
+    Each method that changes a row first reads overrides.csv again. Therefore, changes by another program are
+    not lost. The methods raise GradingError if a row of the file is wrong, and OSError if the file cannot be
     written.
     """
 

@@ -23,7 +23,7 @@ Origins = Mapping[str, Sequence[str]]
 class ClassList:
     """The identities of the students with submissions.
 
-    The class list is empty if there is neither a roster nor a worksheet.
+    Without a roster and a worksheet, the class list is empty.
     """
 
     people: Mapping[str, Person] = field(default_factory=dict)  # The keys are the students' names.
@@ -44,7 +44,7 @@ class ClassList:
         return self.roster is not None or self.worksheet is not None
 
     def summary(self) -> Iterator[str]:
-        """Yield sentences for the terminal about students who are missing, or not found in a list."""
+        """Yield sentences for the terminal about missing students and students who are not in a list."""
         if self.roster is not None:
             yield f"Roster: {self.found} of {len(self.roster)} students handed in their work."
             yield from _counted("handed in nothing", "handed in nothing", list(labels(self.missing)))
@@ -92,7 +92,7 @@ class Lists:
         sheet = _Search([each.person for each in listed], WORKSHEET)
         roster = _Search(self.roster or (), ROSTER)
         for student in students:
-            # If no platform is used, the folder name can contain any field of the student.
+            # If no platform is used, the name of the folder can be any field of the student, such as an id.
             text = "" if student in platform else student
             sheet.search(student, platform.get(student), text)
             roster.search(student, _joined(sheet.found.get(student), platform.get(student)), text)
@@ -137,7 +137,7 @@ class _Search:
         self._title = title
         self.found: dict[str, Person] = {}
         self.unclear: dict[str, str] = {}
-        # `lines` contains the numbers of the lines that belong, or can belong, to a student.
+        # `lines` contains the line numbers of all rows that belong, or can belong, to a student.
         self.lines: set[int] = set()
 
     def decided(self, student: str) -> bool:
@@ -155,7 +155,7 @@ class _Search:
             self.lines |= match.possible
 
     def refuse_shared(self) -> None:
-        """If the same row was found for several students, mark these students as unclear.
+        """Mark students as unclear if the same row was found for several of them.
 
         The instructor has to decide to which of these students the row belongs.
         """

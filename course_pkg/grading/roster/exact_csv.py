@@ -1,4 +1,4 @@
-"""A CSV file in which a cell can be changed without a change of any other byte.
+"""Changes cells of a CSV file without a change of any other byte.
 
 The csv module cannot be used, because it does not preserve quotes, line endings and the byte order mark. The
 format is RFC 4180, with any character as the separator.
@@ -70,5 +70,5 @@ def records(text: str, separator: str) -> Iterator[Record]:
 
 
 def text_of(found: list[Record], separator: str) -> str:
-    """Return the text of the records; without changed cells, it is the original text."""
+    """Return the text of the records; if no cell has changed, this text is the original text."""
     return "".join(separator.join(record.cells) + record.end for record in found)

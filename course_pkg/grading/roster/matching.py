@@ -39,7 +39,7 @@ class People:
     def find(self, known: Person, text: str = "") -> Match:
         """Return the row that belongs to the person `known`.
 
-        `text` is a folder name that an instructor chose; the name can be the value of any student's field.
+        `text` is a folder name that an instructor chose. It can be the value of any field of the student.
         """
         proposals = [rows for rows in self._proposals(known, text) if rows]
         if not proposals:
@@ -88,7 +88,7 @@ def _keys(person: Person) -> Iterator[tuple[str, str]]:
 
 
 def orders(name: str) -> set[str]:
-    """Return the words of a name, joined in each order that a platform can use.
+    """Return the words of a name, joined in every order that a platform can use.
 
     For Jane Maria Doe, Canvas writes "doejanemaria", and a spreadsheet can contain "Doe, Jane Maria".
     """

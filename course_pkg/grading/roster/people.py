@@ -22,7 +22,7 @@ from course_pkg.grading.tables import table_rows
 
 WHAT = "roster"
 FIRST, LAST = "first name", "last name"
-IDENTITY = ("id", "email", "username")  # Each value of these fields belongs to only one student.
+IDENTITY = ("id", "email", "username")  # Two students cannot have the same value in one of these fields.
 FIELDS = ("name", *IDENTITY, "section")
 ALIASES = {
     "name": ("name", "full name", "student", "student name"),

@@ -8,11 +8,11 @@ The layout of the worksheet is from the source code of Moodle. The file mod/assi
 columns Identifier ("Participant 12345"), Full name, further fields such as Email address or ID number,
 Status, Group, Marker, Grade, Maximum grade (or Scale), Marking workflow state, Grade can be changed, Last
 modified (submission), Online text, Last modified (grade), Feedback comments. Most of these columns are
-optional; if submissions are anonymous, the name is missing. The names of the columns and the word
+optional. If submissions are anonymous, the name is missing. The names of the columns and the word
 "Participant" are in the user's language. The file mod/assign/feedback/offline/importgradeslib.php finds the
-columns by exactly these names, takes the number from the end of the identifier, and refuses a file if a
-required column is missing. The file locallib.php in the same folder ignores a grade that is empty, above the
-maximum, or locked.
+columns by exactly these names, and takes the number from the end of the identifier. It refuses a file without
+a required column. The file locallib.php in the same folder ignores a grade that is empty, above the maximum,
+or locked.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ class Worksheet:
 
     @property
     def about_points(self) -> str:
-        """The end of a sentence; it says whether the points are scaled to the maximum grade."""
+        """The end of a sentence about whether the points are scaled to the maximum grade."""
         if MAXIMUM not in self._columns:
             return "; it contains no maximum grade, so the points are not scaled"
         maxima = sorted({f"{each.maximum:g}" for each in self.participants if each.maximum})

@@ -33,7 +33,7 @@ class Change:
 def changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[Change]:
     """Return the points that have changed between two runs, sorted by student and part.
 
-    If a grade exists in only one of the two compared runs, the grade is ignored.
+    A grade that exists in only one of the runs is ignored.
     """
     known = {(grade.student, grade.chapter): grade for grade in before if grade.chapter}
     found = []
@@ -59,7 +59,7 @@ def _between(before: Grade, after: Grade) -> Iterator[Change]:
 
 
 def worth_changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[str]:
-    """Return a line for each part if its possible points, or the points of its goals, have changed."""
+    """Return a line for each part with changed possible points, or with changed points of its goals."""
     old, new = (
         {report.check: report for grade in grades for report in grade.reports} for grades in (before, after)
     )

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from distributed import Client
 
 PATIENCE = 20.0  # A scheduler must respond, and a worker must connect, within this time in s.
-# INTERVAL is the time in s after which the run tests again whether the cluster still has workers.
+# Every `INTERVAL` s, the run tests again whether the cluster still has workers.
 INTERVAL = 1.0
 AGAIN = "The finished grades are saved. Correct the problem above, and type the same command again."
 
@@ -86,7 +86,7 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
     """Yield the cluster at the address `scheduler`, such as tcp://192.0.2.7:8786.
 
     Raises GradingError if dask.distributed is not installed, if no scheduler answers within `patience` s, or
-    if the scheduler has no worker within `patience` s.
+    if the scheduler gets no worker within `patience` s.
     """
     try:
         from distributed import Client
@@ -114,7 +114,7 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
             raise no_workers(scheduler, patience) from error
         yield Cluster(client, client.get_executor(pure=False), scheduler, patience)
     finally:
-        # Without the timeout of 1 s, close() would wait for a scheduler that has ended.
+        # Without this timeout, close() would wait for a scheduler that has ended.
         with suppress(OSError, TimeoutError):
             client.close(timeout=1)
 

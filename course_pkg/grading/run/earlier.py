@@ -1,4 +1,4 @@
-"""The results of earlier runs; a result stays in the reports unless this run replaces it."""
+"""The results of earlier runs; a result remains in the reports until a run replaces it."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ class Earlier:
         The returned grades contain the points of the checks, not an instructor's points.
 
         An earlier grade is marked as absent if this run selects the student and the chapter, but the student
-        has no submission. However, if a run without a selection has no submission for a chapter, the
-        chapter's grades are not marked, because the chapter probably belongs to another assignment.
+        has no submission. However, a run without a selection can have no submission at all for a chapter.
+        Then the chapter's grades are not marked: the chapter probably belongs to another assignment.
         """
         chapters = {grade.chapter for grade in graded}
         now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}

@@ -21,7 +21,7 @@ class Regrade:
 
     @property
     def again(self) -> bool:
-        """Whether the selected notebooks are graded again even if their grades are already stored."""
+        """Whether the run grades the selected notebooks again even if their grades are already stored."""
         return self.fresh or self.selected.again
 
     def parts(self, submission: Submission) -> tuple[str, ...]:
@@ -39,12 +39,12 @@ class Regrade:
         return merged(base, grade) if parts and base else grade
 
     def keep(self, store: Store, graded: Grade, parts: tuple[str, ...], alike: Sequence[Submission]) -> None:
-        """Store a new grade for later runs; at this time, the grade contains no student's name.
+        """Store a new grade for later runs; the grade does not contain a student's name yet.
 
         All submissions in the list `alike` get the grade `graded`. If only `parts` were graded, the new
-        reports on these parts replace the reports in the stored grade. A stored grade that was computed with
-        other options or another version of the checks is removed. If such a grade stayed, a later run of the
-        whole notebook could use its points.
+        reports on these parts replace the reports in the stored grade. Remove a stored grade that was
+        computed with other options or another version of the checks. Otherwise, a later run of the whole
+        notebook could use the points of this grade.
         """
         if not parts:
             store.keep(graded)

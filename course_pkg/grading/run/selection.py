@@ -109,9 +109,9 @@ def merged(base: Grade, again: Grade) -> Grade:
 
 
 def _student(name: str, known: Sequence[str]) -> str:
-    """Return the full name of the student that `name` means.
+    """Return the full name of the student with the name `name`.
 
-    In `name`, the number that a platform adds to a name can be missing.
+    `name` may lack the number that a platform adds to a name.
     """
     identity = clean.identity(name)
     if identity in known:

@@ -16,7 +16,7 @@ TITLE = "Similar answers of different students"
 def find(group: Group) -> Iterator[Found]:
     """Yield a flag for each answer that is nearly identical to another student's answer.
 
-    If several students handed in the same file as a team, the team counts as one student.
+    A team that handed in the same file counts as one student.
     """
     teams = _teams(group)
     prints = [{answer.name: fingerprint(answer) for answer in team[0].answers} for team in teams]
@@ -45,7 +45,7 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _teams(group: Group) -> list[list[Work]]:
-    """Return the works in groups; a group contains the works of all students who submitted the same file."""
+    """Return the works in groups; the students of a group have submitted the same file."""
     teams: dict[str, list[Work]] = {}
     for work in group.works:
         teams.setdefault(work.origin, []).append(work)

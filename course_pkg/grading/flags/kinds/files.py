@@ -1,4 +1,4 @@
-"""Answers that read files or run programs, although the exercise does not require it."""
+"""Answers that read files or run programs although the exercise requires no files or programs."""
 
 from __future__ import annotations
 

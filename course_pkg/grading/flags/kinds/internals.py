@@ -139,7 +139,7 @@ def _is_internal(name: str) -> bool:
 
 
 def _named(text: str, line: int) -> Iterator[Observation]:
-    """Yield an observation if a string in the code is the name of an internal module or attribute."""
+    """Yield an observation for each string that is the name of an internal module or attribute."""
     if MODULE.fullmatch(text) and not PUBLIC.fullmatch(text):
         yield Observation(text, line, f"The code contains the name {text}.")
     elif text in ATTRIBUTES:

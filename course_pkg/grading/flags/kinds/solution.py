@@ -24,11 +24,11 @@ CHANGED = (
 def find(group: Group) -> Iterator[Found]:
     """Yield a flag for each answer that is identical or nearly identical to the course's solution.
 
-    A short answer that is equal to the solution does not prove copying, because many students write the same
-    code. Therefore, the statements in the unchanged exercise cells that students get are not counted. Answers
-    that are identical to the solutions are reported only if they contain at least ten counted statements in
-    total. A nearly identical answer is reported only if the solution of this exercise contains at least ten
-    other statements.
+    A short answer that is equal to the solution does not prove that the student copied it, because many
+    students write the same code. Therefore, statements that are also in the unchanged exercise cell are not
+    counted. A student's answers that are identical to the solutions are reported only if they contain at
+    least ten counted statements in total. A nearly identical answer is reported only if the solution of this
+    exercise contains at least ten counted statements.
     """
     blanks = blank_fingerprints(group)
     own = {name: fingerprint(answer) for name, answer in group.solution.items()}
@@ -58,7 +58,7 @@ def _written(answer: Fingerprint, given: Fingerprint) -> int:
 def _plain(answer: Answer) -> str:
     """Return the program in a form that does not depend on comments, spaces and line breaks.
 
-    If the program is not valid Python, comments are kept.
+    The comments stay in the result if the program is not valid Python.
     """
     with suppress(*UNREADABLE):
         if is_python(answer):

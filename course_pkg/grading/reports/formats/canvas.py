@@ -3,10 +3,10 @@
 The layout of the files is from the source code of Canvas. The file lib/gradebook_exporter.rb writes the
 columns Student, ID, SIS User ID, SIS Login ID and Section. It also writes one column for each assignment, and
 the row " Points Possible". The file lib/gradebook_importer.rb finds a student by the ID (the Canvas user id).
-If there is no ID, the importer uses the SIS User ID, the SIS Login ID or the name. The importer finds an
+Without an ID, the importer uses the SIS User ID, the SIS Login ID or the name. The importer finds an
 assignment by the assignment's name, with or without the number in parentheses. If Canvas does not know the
 name, the importer offers to create the assignment. The row " Points Possible" sets the points of the
-assignment. An empty cell removes the student's grade. If the student has no row, the grade does not change.
+assignment. An empty cell removes the student's grade. The grade of a student without a row does not change.
 Therefore, canvas.csv has no row for a student without a grade, and canvas/NN.csv has rows only for students
 who submitted the chapter.
 """
@@ -32,7 +32,7 @@ def write(book: Book, out: Path) -> None:
     files = {folder / f"{clean.file_name(chapter)}.csv": chapter for chapter in book.chapters}
     for path, chapter in files.items():
         _put(path, book, [chapter])
-    # The files that this loop deletes are from an earlier run that graded other chapters.
+    # This loop deletes the files of an earlier run that graded other chapters.
     for path in set(folder.glob("*.csv")) - files.keys():
         path.unlink()
 

@@ -1,7 +1,7 @@
 """gradescope/<student>/results.json, in the format of an autograder of Gradescope.
 
 Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/. Gradescope stores `extra_data`, but
-does not show it. In this file, `extra_data` contains the identity of the student, with the field names from
+does not show it. Here, `extra_data` contains the identity of the student. The names of its fields are from
 https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.
 """
 
@@ -49,7 +49,7 @@ def results_of(grades: Sequence[Grade]) -> dict[str, Plain]:
         text for grade in grades for text in (grade.problem, about_lateness(grade), *grade.notes) if text
     ]
     return {
-        # Gradescope uses `score`, which includes the deduction for lateness, not the sum of the tests.
+        # Gradescope uses `score`, not the sum of the tests. `score` includes the deduction for lateness.
         "score": round(sum(grade.earned for grade in grades), 2),
         "output": "\n".join(clean.line(text) for text in words),
         "output_format": "text",

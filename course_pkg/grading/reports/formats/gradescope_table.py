@@ -1,8 +1,8 @@
 """gradescope.csv has the same layout as the file of grades that an instructor can download from Gradescope.
 
 Gradescope's file (menu Review Grades, Download Grades) has the columns Name, SID, Email, Sections, Total
-Score, Max Points, Status, Submission ID, and one column for each question. Gradescope itself imports grades
-only from results.json (see gradescope.py).
+Score, Max Points, Status, Submission ID, and one column for each question. Gradescope cannot import this
+table: it imports grades only from results.json (see gradescope.py).
 """
 
 from __future__ import annotations

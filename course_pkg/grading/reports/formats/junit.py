@@ -2,7 +2,7 @@
 
 Each submission is a test suite, and each part is a test case.
 
-A part that was not examined is reported as an error, not as skipped, because readers overlook skipped tests.
+A part that was not examined is an error, not a skipped test, because readers overlook skipped tests.
 """
 
 from __future__ import annotations

@@ -2,13 +2,13 @@
 
 During the import, Moodle asks for the meaning of each column.
 
-In Moodle's dialog, map the column `username` or `email` to the student; Moodle cannot find a student by a
-full name or by a participant number. For submissions from Moodle, `username` and `email` come from a roster
-or from Moodle's worksheet. Map the column of each chapter to the grade item of this chapter, and the feedback
+In Moodle's dialog, map the column `username` or `email` to the student. Moodle cannot find a student by a
+full name or a participant number. For submissions from Moodle, `username` and `email` come from a roster or
+from Moodle's worksheet. Map the column of each chapter to the grade item of this chapter, and the feedback
 column to "Feedback for". Always map both the grade column and the feedback column of a chapter. If only the
 feedback for an item is imported, Moodle deletes the grade of this item
-(https://docs.moodle.org/en/Grade_import). For the grades of only one assignment, use the copy of Moodle's
-worksheet, which is simpler (moodle_worksheet.py).
+(https://docs.moodle.org/en/Grade_import). If you need the grades of only one assignment, the copy of Moodle's
+worksheet is simpler (moodle_worksheet.py).
 """
 
 from __future__ import annotations

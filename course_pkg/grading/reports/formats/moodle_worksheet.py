@@ -1,10 +1,9 @@
 """moodle_worksheet.csv, a copy of Moodle's own grading worksheet with grades and feedback comments.
 
-Only the columns Grade and Feedback comments change, and only in rows of students with a submission and an
-unlocked grade. If Moodle's maximum grade differs from the possible points, the points are scaled. Without
-this scaling, Moodle would read 9 of 9 points as 9 of 100 points. If the points are scaled, the feedback also
-contains the unscaled points. A worksheet belongs to one assignment, so the grade is the sum of all chapters
-of the run.
+Only the columns Grade and Feedback comments change. They change only in rows of students with a submission
+and an unlocked grade. If Moodle's maximum grade differs from the possible points, the points are scaled.
+Without this scaling, Moodle would read 9 of 9 points as 9 of 100 points. Then the feedback also contains the
+unscaled points. A worksheet belongs to one assignment, so the grade is the sum of all chapters of the run.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ def write(book: Book, out: Path) -> None:
 
 
 def _grade(book: Book, student: str, maximum: float | None) -> str:
-    """Return the points for Moodle; if `maximum` is not None, the points are scaled to this maximum."""
+    """Return the points for Moodle, scaled to `maximum` if `maximum` is not None."""
     earned = book.earned(student)
     possible = book.possible_for(student)
     return points(earned if maximum is None or not possible else min(maximum, earned * maximum / possible))
