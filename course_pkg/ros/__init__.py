@@ -3,8 +3,8 @@
 The modules find or start a master, make this process a node, run other nodes, call services with a time
 limit, and list all nodes.
 
-Each name of this package is imported when the name is used for the first time, because the program `course`
-has to start a master before it can import rospy.
+Each name of this package is imported at its first use: the program `course` has to start a master before it
+can import rospy.
 """
 
 from typing import TYPE_CHECKING

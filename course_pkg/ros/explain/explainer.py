@@ -9,7 +9,7 @@ from course_pkg.errors import CourseError
 from course_pkg.ros.explain.explanation import Explanation, known
 from course_pkg.workspace import explain as explain_build
 
-# Only the last characters of a text, up to this number, are searched.
+# Only the last `LONGEST` characters of a text are searched.
 LONGEST = 50_000
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _TRACEBACK = "Traceback (most recent call last)"

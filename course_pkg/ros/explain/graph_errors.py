@@ -1,7 +1,7 @@
 """The table of errors of the master, nodes and addresses; the module `handler_errors` explains the columns.
 
-A failed call may also report `unable to contact master`, so this table is searched before the table for
-calls.
+A failed call may also report `unable to contact master`. Therefore, this table is searched before the table
+for calls.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""An action server in a Jupyter kernel; the cell that creates the action server may run again.
+"""An action server in a Jupyter kernel; you may run the cell that creates it again.
 
 The thread of a SimpleActionServer would prevent the end of the process. This module therefore uses goal
 callbacks: http://wiki.ros.org/actionlib_tutorials/Tutorials, "Goal Callback Method".
@@ -23,13 +23,13 @@ Execute = Callable[[Message, actionlib.SimpleActionServer], object]
 
 
 class ActionServer:
-    """Serves the action `name` of type `kind`: calls `execute(goal, server)` for each goal, one at a time.
+    """Serves the action `name` of type `kind`; calls `execute(goal, server)` for one goal after another.
 
-    `server` is an actionlib.SimpleActionServer: `execute` uses this object to send feedback and the result,
-    and to check whether the goal was cancelled.
+    `server` is an actionlib.SimpleActionServer. With this object, `execute` sends feedback and the result,
+    and checks whether the goal was cancelled.
 
-    An ActionServer ends when stop() is called, or when no variable refers to it any more. The second case
-    occurs, for example, when the cell that created the ActionServer runs again.
+    An ActionServer ends when stop() is called, or when no variable refers to it any more. For example, this
+    happens when the cell that created the ActionServer runs again.
     """
 
     def __init__(self, name: str, kind: type, execute: Execute) -> None:
@@ -37,8 +37,8 @@ class ActionServer:
         self._stopped, self._goal_came = threading.Event(), threading.Event()
         self._server = actionlib.SimpleActionServer(name, kind, auto_start=False)
         self._server.register_goal_callback(self._goal_came.set)
-        # The thread gets no reference to `self`, because with this reference, the ActionServer would never be
-        # deleted.
+        # The thread gets no reference to `self`: such a reference would prevent Python from deleting the
+        # ActionServer.
         work = (self._server, execute, self._goal_came, self._stopped)
         self._thread = threading.Thread(target=_work, args=work, daemon=True)
         self._thread.start()
@@ -80,7 +80,7 @@ def _work(
 
 
 def _execute(server: actionlib.SimpleActionServer, execute: Execute, goal: Message) -> None:
-    """Execute a goal, and set its terminal state even if `execute` raises an exception."""
+    """Execute a goal and set its terminal state, even if `execute` raises an exception."""
     try:
         execute(goal, server)
         message = "The function ended without a final state."

@@ -35,8 +35,8 @@ from course_pkg.ros.protocol.rospy_registrations import node_known, register_all
 from course_pkg.ros.trace.handover import hand_over
 from course_pkg.workspace import OwnPackages, own_workspace
 
-# Wait up to this time in s for the end of another node with the same name, such as the node of a restarting
-# kernel.
+# join() waits up to this time in s for the end of another node with the same name. For example, this is the
+# node of a restarting kernel.
 NAME_TIMEOUT = 2.0
 
 
@@ -85,7 +85,7 @@ class _Kernel:
         self._packages: OwnPackages | None = None
         self._private: Roscore | None = None
         self._cleaner: SupervisedProcess | None = None
-        # The cleaner process unregisters the node with these data: the master's URI, the node's name and its
+        # The cleaner process uses these data to unregister the node: the master's URI, the node's name and
         # URI.
         self._registered: tuple[str, str, str] | None = None
 
@@ -120,7 +120,7 @@ class _Kernel:
             if self._shell is not None:
                 self._shell.add_programs(self._node.keep)
             atexit.register(self._at_exit)
-            # When a forked child process ends, it must not unregister the services and topics of its parent.
+            # A forked child process must not unregister its parent's services and topics when it ends.
             os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
         self._node.renew()
         self._start_cleaner(master)
@@ -237,7 +237,7 @@ def _require_same_name(full: str) -> None:
 def _apply_environment() -> None:
     """Set the workspace's environment variables if the workspace's setup file was not sourced.
 
-    In an editor or on Binder, for example, the workspace's setup file is not sourced.
+    An editor or Binder, for example, does not source this file.
     """
     if "ROS_PACKAGE_PATH" not in os.environ:
         from course_pkg.setup import environment
@@ -254,10 +254,10 @@ def _apply_environment() -> None:
 
 
 def _free_name(full: str, master: MasterClient) -> None:
-    """Wait until no running node uses this name.
+    """Wait until no other node uses this name.
 
-    If a node with the requested name has ended, its registrations are removed. Raises NodeNameTaken after
-    NAME_TIMEOUT seconds.
+    If the other node has ended, remove its registrations. Raises NodeNameTaken if the other node still has
+    the name after NAME_TIMEOUT seconds.
     """
     deadline = time.monotonic() + NAME_TIMEOUT
     while (uri := master.lookup_node(full)) is not None:

@@ -96,8 +96,8 @@ class Node:
     def record(self) -> AbstractContextManager[Recording]:
         """Record the calls, messages and callbacks of all nodes of the course during a `with` block.
 
-        The recording is empty until the `with` block ends. If a node does not answer, the collection of the
-        records takes up to 1 s.
+        The recording is empty until the `with` block ends. The collection of the records takes up to 1 s if a
+        node does not answer.
         """
         self._require()
         return recorded(self.name, self.uri, self._client())
@@ -109,7 +109,7 @@ class Node:
     def renew(self) -> None:
         """Create the subscriptions again after a restart of rospy.
 
-        Objects that a cell created directly with rospy are not created again.
+        This method does not create objects again if a cell created them directly with rospy.
         """
         if self._uri == rospy.get_node_uri():
             return
@@ -148,8 +148,9 @@ class Node:
 
     def _proxy(self, name: str, kind: ServiceKind) -> BoundedProxy:
         cls = service_class(kind)
-        # The id() of a class is unique as long as the class exists. The stored proxy has a reference to the
-        # class, so the class exists as long as the proxy.
+        # The id() of a class is unique while the class exists. The stored proxy refers to the class, so the
+        # class exists at least as long as the proxy. The stored proxy has a reference to the class, so the
+        # class exists as long as the proxy.
         key = (str(rospy.resolve_name(name)), id(cls))
         if key not in self._proxies:
             self._require()

@@ -1,13 +1,13 @@
-"""After init_node(), make a node ignore idle connections, and record its calls and messages.
+"""Prepare a node after init_node(): it ignores idle connections, and records its calls and messages.
 
-In rospy, one thread accepts all connections and also reads their headers. A client that connects and sends
-nothing therefore blocks new connections to all services and topics of the node. In a prepared node, the
-thread that accepts connections reads only headers that have arrived completely. A separate thread waits, for
-a limited time, for a header that arrives slowly.
+In rospy, one thread accepts all connections and also reads their headers. If a client connects and sends
+nothing, the node accepts no other connections to its services and topics. In a prepared node, the thread that
+accepts connections reads only headers that have arrived completely. For a header that arrives slowly, a
+separate thread waits for a limited time.
 
 In the slave API (http://wiki.ros.org/ROS/Slave_API), `getBusStats` returns a list for the statistics of
-services. rospy leaves this list empty, and this module fills the list. `getCourseRecord` is an additional
-method of the course; a node that was not prepared returns an error for this method.
+services. In rospy, this list is empty; this module fills the list. `getCourseRecord` is an additional method
+of the course. A node that was not prepared returns an error for it.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from course_pkg.ros.trace.topic_hooks import hook_topics
 HEADER_TIMEOUT = 10.0  # A header has to arrive within this time in s.
 AT_ONCE = 2  # If a header takes longer than this time in ms, a separate thread waits for it.
 LONGEST = 65536  # A connection with a longer header (in bytes) is closed.
-# The maximum number of connections that wait until the node accepts them. rospy's limit is 5: if many clients
+# The maximum number of connections that wait until the node accepts them. rospy's limit is 5. If more clients
 # connect at once, some of them wait 1 s for a TCP retransmission.
 BACKLOG = 128
 STATISTICS = "getBusStats"
@@ -70,7 +70,7 @@ def guard_against_idle_connections() -> bool:
     """Make this process's node wait for headers on separate threads.
 
     Call this function after init_node(). The function changes rospy's internals. If this release of rospy has
-    different internals, the function changes nothing and returns False.
+    different internals, the function returns False and changes nothing.
     """
     tcpros_base.start_tcpros_server()
     server = getattr(tcpros_base, "_tcpros_server", None)
@@ -108,7 +108,7 @@ def hasten_shutdown() -> None:
 def extend_slave() -> None:
     """Make the slave API of this process's node return the node's records."""
     setattr(ROSHandler, GET_RECORD, _record)
-    # In rospy, a decorator gives the method getBusStats the parameters `args` and `kwds`.
+    # A decorator in rospy gives the method getBusStats the parameters `args` and `kwds`.
     hook = Hook(ROSHandler, STATISTICS, ("args", "kwds"), _add_services)
     if hook.fits():
         hook.install()
@@ -131,7 +131,7 @@ def _serve_later(serve: Serve, sock: socket.socket, address: Any) -> None:  # no
 
 
 def _header_arrives(sock: socket.socket, timeout: float) -> bool:
-    """Return whether a whole header has arrived, or the client has disconnected, within `timeout` s."""
+    """Wait up to `timeout` s; return whether a whole header has arrived or the client has disconnected."""
     deadline = time.monotonic() + timeout
     if not _readable(sock, 4, deadline):
         return False
@@ -145,7 +145,7 @@ def _header_arrives(sock: socket.socket, timeout: float) -> bool:
 def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
     """Return whether at least `count` bytes arrive before the deadline.
 
-    With SO_RCVLOWAT, poll() waits until all bytes have arrived.
+    With the socket option SO_RCVLOWAT, poll() waits until `count` bytes have arrived.
     """
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVLOWAT, count)
     try:
@@ -159,7 +159,7 @@ def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
 def _record(_handler: ROSHandler, _caller_id: str, since: float) -> tuple[int, str, str]:
     """Return the record of this node since the time `since` (s of time.monotonic()), as JSON.
 
-    JSON is ten times as fast to encode as XML.
+    Encoding JSON is ten times as fast as encoding XML.
     """
     return 1, "", json.dumps(recorder().since(float(since)))
 

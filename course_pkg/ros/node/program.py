@@ -34,8 +34,8 @@ def start_node(name: str) -> bool:
         wait_for_master(rospy.logwarn)
     except KeyboardInterrupt:
         return False
-    # rospy's start and rospy's shutdown use the same locks, so Ctrl-C is delayed until the start has ended.
-    # The signals are masked, because rospy replaces the signal handlers during its start.
+    # The start and the shutdown of rospy use the same locks, so Ctrl-C is delayed until the start has ended.
+    # The signals are blocked, because rospy replaces the signal handlers during its start.
     signal.pthread_sigmask(signal.SIG_BLOCK, END_SIGNALS)
     try:
         rospy.init_node(name)
@@ -62,8 +62,8 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 def undisturbed() -> Iterator[None]:
     """Delay Ctrl-C until the end of the `with` block.
 
-    While rospy calls the master, rospy holds a lock that the shutdown of rospy also needs. rospy calls the
-    master when it registers a service or a topic, reads a parameter, or writes a log message.
+    While rospy calls the master, it holds a lock that its shutdown also needs. rospy calls the master when it
+    registers a service or a topic, reads a parameter, or writes a log message.
     """
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}
@@ -83,7 +83,7 @@ def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Me
     node offers the service within 5 s, CallTimeout if the response takes longer than 5 s, and rospy's errors
     for a failed call. Raises MasterUnreachable at once if no master answers.
     """
-    # Raise an error if no master answers, because init_node would wait for a master for ever.
+    # This call raises an error if no master answers; init_node would wait for ever.
     MasterClient(master_uri()).pid()
     rospy.init_node(node)
     prepare_node()

@@ -1,7 +1,7 @@
 """Call a service with a time limit.
 
 rospy's ServiceProxy has no time limit, and its sockets block. This module therefore creates the transport
-itself. A watchdog or another thread can end a call at any time by shutting down the transport's socket.
+itself. To end a call at any time, a watchdog or another thread shuts down the transport's socket.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from course_pkg.ros.node.watchdog import Watchdog
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.trace.service_hooks import RecordedCall, RecordedLookup, service_transport
 
-# This attribute of rospy stores the parameter /tcp_keepalive; it is None until rospy has read the parameter.
+# This attribute of rospy stores the parameter /tcp_keepalive. It is None until rospy reads the parameter.
 KEEPALIVE = "_use_tcp_keepalive"
 
 
@@ -69,8 +69,8 @@ class BoundedProxy(rospy.ServiceProxy):
         """End all running calls; each call raises CallCancelled in the thread that made it."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            # If the call ended before arm() added this action to the watchdog, only the next lines remove the
-            # action.
+            # The call may have ended before arm() added this action to the watchdog. Then the next line
+            # removes the action.
             if call.over:
                 self._disarm(call)
 
@@ -94,8 +94,8 @@ class BoundedProxy(rospy.ServiceProxy):
         try:
             return self._persistently(call, request) if self.persistent else self._once(call, request)
         except (rospy.ServiceException, TransportException, OSError, AttributeError):
-            # rospy raises one of these errors if another thread shuts the socket down while rospy uses the
-            # socket.
+            # While rospy uses the socket, another thread may shut the socket down. rospy then raises one of
+            # these errors.
             if call.error is None:
                 raise
             # rospy's error only says that the socket is closed; `call.error` contains the reason.
@@ -130,7 +130,7 @@ class BoundedProxy(rospy.ServiceProxy):
                 response = self._exchanged(transport, request)
             except rospy.ServiceException as error:
                 if error.__cause__ is None and call.error is None:
-                    # The error message is from the server, so the connection still works and can be used
+                    # The server has sent the error message, so the connection still works and can be used
                     # again.
                     self._connection = transport
                 else:
@@ -246,7 +246,7 @@ class _Call:
         self.error = self.error or error
         sock = self.transport.socket if self.transport else None
         if sock is not None:
-            # If the socket is not connected yet, shutdown() fails, and the watchdog runs this method again.
+            # shutdown() fails if the socket is not connected yet; the watchdog then runs this method again.
             with suppress(OSError):
                 sock.shutdown(socket.SHUT_RDWR)
 

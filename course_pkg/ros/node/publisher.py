@@ -1,4 +1,4 @@
-"""A publisher that counts the messages that were sent and the messages that were dropped."""
+"""A publisher that counts the messages that it sends and drops."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Publisher:
 
     @property
     def dropped(self) -> int:
-        """The number of messages that were dropped from full queues, summed over all subscribers."""
+        """The number of messages dropped from full queues, for all subscribers together."""
         return self._deliveries.dropped
 
     def stop(self) -> None:

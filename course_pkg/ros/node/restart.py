@@ -1,12 +1,12 @@
 """Start rospy in a notebook's kernel, even several times, without changing the kernel's logging.
 
-rospy can start only once in a process. rospy is shut down after signal_shutdown(), after an interrupted
-rospy.spin(), and when another node starts with the same name. A second init_node() then does nothing and
-raises no error. This module therefore sets rospy's variables to the values that they had before the first
+rospy can start only once in a process. rospy is shut down by signal_shutdown(), by an interrupted
+rospy.spin(), and by another node with the same name. After this, a second init_node() does nothing and raises
+no error. This module therefore sets rospy's variables to the values that they had before the first
 init_node().
 
-init_node() also removes the root logger's handlers. The log messages of all threads would then appear below
-the running cell, so this module restores the handlers.
+init_node() also removes the root logger's handlers. Without these handlers, the log messages of all threads
+would appear below the running cell. This module therefore restores the handlers.
 """
 
 from __future__ import annotations
@@ -59,8 +59,8 @@ def begin_again() -> None:
 def allow_init_node() -> None:
     """Make every later rospy.init_node() do nothing.
 
-    A cell may contain a whole program that calls rospy.init_node(). rospy would raise ROSException if the
-    arguments differ from the arguments of the first call.
+    A cell may contain a whole program that calls rospy.init_node(). If its arguments differed from the
+    arguments of the first call, rospy would raise ROSException.
     """
     setattr(client, ARGUMENTS, _AnyArguments())
 
@@ -77,7 +77,7 @@ class _AnyArguments:
 
 @contextmanager
 def logging_kept() -> Iterator[None]:
-    """After the `with` block, restore the root logger's handlers; new handlers stay only on ROS's loggers."""
+    """Restore the root logger's handlers after the `with` block; only ROS's loggers get the new handlers."""
     root = logging.getLogger()
     handlers, level = root.handlers[:], root.level
     try:

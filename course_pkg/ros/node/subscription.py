@@ -48,7 +48,8 @@ class Subscription:
         """
         deadline = time.monotonic() + timeout
         with self._arrived:
-            # On some platforms, a signal cannot interrupt a long wait for a lock, so each wait is short.
+            # On some platforms, a signal cannot interrupt a long wait for a lock. Each wait is therefore
+            # short.
             while len(self.messages) < count and (rest := deadline - time.monotonic()) > 0:
                 self._arrived.wait(min(rest, 0.5))
             if len(self.messages) < count:
@@ -59,7 +60,7 @@ class Subscription:
         """Unsubscribe; the stored messages are not deleted.
 
         A second call has no effect. Raises MasterUnreachable or MasterSilent when the master does not answer.
-        Even if stop() raises an error, no further messages are stored.
+        After stop(), no further messages are stored. This is also true if stop() raises an error.
         """
         self._active = False
         subscriber, self._subscriber = self._subscriber, None

@@ -15,8 +15,8 @@ REPEAT = 0.02  # An armed action runs again after this time in s.
 class Watchdog:
     """Runs an action after its deadline, and again every 20 ms, until the action is disarmed.
 
-    An action shuts down a socket; when the action runs for the first time, the socket may not exist yet. The
-    thread ends some seconds after the last action was disarmed.
+    An action shuts down a socket, which may not exist yet when the action runs for the first time. The thread
+    ends some seconds after the last action was disarmed.
     """
 
     def __init__(self) -> None:
@@ -52,8 +52,9 @@ class Watchdog:
             for action in due:
                 action()
             with self._changed:
-                # Another thread may arm an action while the next lines run. While `_wake` is infinite, each
-                # call of arm() wakes up this thread.
+                # While `_wake` is infinite, each call of arm() wakes up this thread. Another thread may call
+                # arm() while the next lines run. While `_wake` is infinite, each call of arm() wakes up this
+                # thread.
                 self._wake = math.inf
                 earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
                 self._wake = max(earliest, now + REPEAT) if due else min(earliest, now + LINGER)
@@ -63,7 +64,7 @@ class Watchdog:
         """Return whether this thread may end. If it ends, the next arm() starts a new thread."""
         with self._changed:
             self._thread = None
-            # If another thread has armed an action in the meantime, this thread has to continue.
+            # If another thread has armed an action in the meantime, this thread continues.
             if self._armed:
                 self._thread = threading.current_thread()
             return self._thread is None

@@ -1,1 +1,1 @@
-"""Make rospy usable in a notebook: cells can run again and start programs, and error messages are short."""
+"""Make rospy usable in a notebook: run cells again, start programs, and show short error messages."""

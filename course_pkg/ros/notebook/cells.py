@@ -1,6 +1,6 @@
 """Record the runs of a notebook's cells and the objects that each run created.
 
-When a cell runs again, the objects (such as services) that the last run created are shut down.
+When a cell runs again, this module shuts down the objects that the cell's last run created, such as services.
 
 A front end sends the cell's id with each execution. nbclient sends no id, so each execution without an id
 counts as a separate cell.
@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from types import FrameType
 from weakref import WeakSet
 
-CALLBACK = "rospy."  # A module with this prefix calls handlers and callbacks.
+CALLBACK = "rospy."  # Functions of modules with this prefix call handlers and callbacks.
 
 Close = Callable[[], None]
 CloseAll = Callable[[list[Close]], None]
@@ -30,14 +30,13 @@ class CellRun:
     """
 
     source: str = ""
-    # `temporary` is True if the run is a check; when a check ends, the objects that the check created are
-    # shut down.
+    # `temporary` is True if the run is a check. The objects that a check created are shut down at its end.
     temporary: bool = False
     error: str = ""  # This is the class name of the exception that ended the run.
-    # The dict maps each created object to the function that shuts it down; the oldest object comes first.
+    # The dict maps each created object to the function that shuts it down. The oldest object comes first.
     created: dict[Hashable, Close] = field(default_factory=dict)
-    # These threads were running when the run began. Their identifiers are not sufficient: if one of these
-    # threads ends, a new thread can get the same identifier.
+    # These threads were running when the run began. Thread identifiers are not sufficient: after the end of a
+    # thread, a new thread can get the same identifier.
     threads: WeakSet[threading.Thread] = field(default_factory=WeakSet)
 
     def owns_this_thread(self) -> bool:
@@ -59,8 +58,8 @@ class Cells:
         self._runs: dict[str, CellRun] = {}
         self._cells: dict[str, str] = {}  # The dict maps the `source` of a run to the id of its cell.
         self._current: CellRun | None = None
-        # This is the number of cell runs that began inside the current run; %%capture, for example, begins
-        # one.
+        # This is the number of cell runs that began inside the current run. For example, %%capture begins
+        # such a run.
         self._depth = 0
         self._paused = 0
 
@@ -77,7 +76,7 @@ class Cells:
                 self._close_all(list(previous.created.values()))
 
     def end(self, error: BaseException | None = None) -> None:
-        """End the current run; `error` is the exception that ended it, or None if the cell succeeded."""
+        """End the current run; `error` is the exception that ended the run, or None if the cell succeeded."""
         if self._depth:
             self._depth -= 1
         elif self._current is not None:
@@ -86,7 +85,7 @@ class Cells:
 
     @property
     def run(self) -> CellRun | None:
-        """The run that records the new objects of this thread, or None if no run records them."""
+        """The run that records the new objects of this thread, or None if there is no such run."""
         run = self._current
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 

@@ -30,10 +30,10 @@ from course_pkg.ros.protocol.rospy_registrations import registration_manager
 from course_pkg.ros.trace.hooks import Hook, Method
 
 GOAL_TIMEOUT = 2.0  # A goal has to end within this time in s after its cancellation.
-# One of these errors is raised if a topic is closed, the node is shut down, or the master does not answer.
+# rospy raises one of these errors if a topic is closed, the node is shut down, or the master does not answer.
 EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError, GraphError)
-# This value replaces the address of a service that has ended. If the ended service kept its address, another
-# shutdown() of this service would unregister a newer service of this process with the same name.
+# This value replaces the address of a service that has ended. With the old address, another shutdown() of the
+# ended service would unregister a newer service of this process with the same name.
 UNREGISTERED = "rosrpc://unregistered:0"
 LOOK = 0.5  # This is the time in s between two polls in _end_with_process().
 
@@ -65,7 +65,7 @@ def note_creations(cells: Cells) -> None:
 def close_all(closes: list[Close]) -> None:
     """Shut down the objects of a run, from newest to oldest.
 
-    Action servers end before all other objects, because an action server publishes results when it ends.
+    Action servers end before all other objects, because they publish results at their end.
     """
     if not closes:
         return
@@ -83,9 +83,9 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """Prevent rospy from waiting for ever for an unregistration if the master does not answer.
+    """Skip an unregistration in rospy that would wait for ever for a master that does not answer.
 
-    During the `with` block, rospy skips this unregistration.
+    The unregistration is skipped only during the `with` block.
     """
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
@@ -146,7 +146,7 @@ def _registering(cells: Cells) -> Callable[[Method], Method]:
 
 
 def _make_room(run: CellRun, before: ServiceImpl) -> bool:
-    """Return whether a new service may replace the older service `before`; if necessary, shut `before` down.
+    """Return whether a new service may replace the service `before`; if `before` has to end, shut it down.
 
     A check must not shut down the service of a cell. A check may create a second object of a student's class,
     and the `__init__` of this class may create a service. The service of the second object must not replace
@@ -164,7 +164,7 @@ def _make_room(run: CellRun, before: ServiceImpl) -> bool:
 
 
 def _close_service(service: ServiceImpl) -> None:
-    """Shut a service down; a client that is still connected then gets error messages."""
+    """Shut a service down; a connected client then gets error messages."""
     if get_service_manager().get_service(service.resolved_name) is service:
         service.shutdown("its cell runs again")
     service.uri = UNREGISTERED
@@ -190,7 +190,7 @@ def _close_action(server: actionlib.ActionServer) -> None:
 def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
     """End an action server and cancel a running goal.
 
-    If the goal callback ignores the cancellation, the goal continues.
+    A goal continues if its callback ignores the cancellation.
     """
     with server.terminate_mutex:
         server.need_to_terminate = True
@@ -204,7 +204,7 @@ def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
 def _end_with_process(server: actionlib.SimpleActionServer) -> None:
     """End an action server's thread when the main thread ends.
 
-    Without this function, Python would wait for ever for the end of the action server's thread.
+    Otherwise, Python would wait for ever for the end of the action server's thread.
     """
     main = threading.main_thread()
     while main.is_alive() and not server.need_to_terminate:

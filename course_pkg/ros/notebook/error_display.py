@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
 METHOD = "structured_traceback"  # IPython formats an error with this method.
-DEFAULT_MODE = "Context"  # Errors are shortened only in this default mode of %xmode.
-# For a SyntaxError in an imported file, the error message shows at most this number of function calls.
+DEFAULT_MODE = "Context"  # The course shortens errors only in this mode of %xmode, the default mode.
+# For a SyntaxError in an imported file, an error message shows at most this many function calls.
 CALLS = 2
 # rospy's log messages about an exception contain this text.
 TRACEBACK = "Traceback (most recent call last)"
@@ -73,7 +73,7 @@ class ErrorDisplay:
         *args: Any,  # noqa: ANN401
         **kwds: Any,  # noqa: ANN401
     ) -> list[str]:
-        """Return a SyntaxError as IPython formats it, but without the frames of the import system."""
+        """Return a SyntaxError in IPython's format, without the frames of the import system."""
         shown = [call for call in calls if self._all or is_students(call.filename)]
         return self._full_syntax(etype, evalue, shown[-CALLS:], *args, **kwds)
 
@@ -116,7 +116,7 @@ class ThreadErrors(logging.Handler):
         self._shown.clear()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """If rospy's log record is about an exception, show the exception that this thread is handling."""
+        """If rospy's log record is about an exception, show the exception."""
         error = sys.exc_info()[1]
         if error is not None and TRACEBACK in record.getMessage() and _in_background():
             self._show(error)

@@ -1,4 +1,4 @@
-"""Make a kernel show matplotlib's figures as SVG; the same data always give the same SVG.
+"""Make a kernel show matplotlib's figures as SVG. The same data always give the same SVG.
 
 nbval compares the text of a figure's output, but not the SVG: see authoring/nbval_figures.py.
 """
@@ -22,8 +22,8 @@ SETTINGS = {
 def set_up_figures() -> None:
     """Make this kernel show figures as SVG; outside of IPython, do nothing.
 
-    matplotlib's inline backend reads the settings before it draws the first figure. If the backend has
-    already drawn a figure, the settings apply to the next figure.
+    matplotlib's inline backend reads the settings before it draws the first figure. After the first figure,
+    the settings apply to the next figure.
     """
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None

@@ -26,7 +26,7 @@ Keep = Callable[[NodeProcess], None]
 
 
 class Program:
-    """A program that runs in the background until the cell that started it runs again, or the kernel ends."""
+    """A program in the background. It ends with the kernel, or when the cell that started it runs again."""
 
     def __init__(self, words: str, process: NodeProcess) -> None:
         self._words = words
@@ -48,13 +48,13 @@ class Program:
         return self._process.returncode
 
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
-        """Wait for the text `line` in the output, for the service `service`, or for both if both are given.
+        """Wait for the text `line` in the output, for the service `service`, or for both.
 
         Without `line` and `service`, wait until the program ends.
 
-        Returns the exit status, or None while the program is running. Raises NodeFailed after `timeout` s, or
-        if the program ends before it prints the line or offers the service. The error message contains the
-        last output.
+        Returns the exit status, or None while the program is running. Raises NodeFailed after `timeout` s.
+        Also raises it if the program ends before it prints the line or offers the service. The error message
+        contains the last output.
         """
         if line:
             self._process.wait_for_output(line, timeout)
@@ -120,7 +120,7 @@ def _usage(text: str) -> Exception:
 
 
 def _require_launchable(words: list[str]) -> None:
-    """Raise UsageError or UnknownExecutable if no launch file exists for these arguments."""
+    """Raise UsageError or UnknownExecutable if there is no launch file for these arguments."""
     if not words or (len(words) < 2 and not words[0].endswith(SUFFIX)):
         raise _usage(ROSLAUNCH)
     if words[0].endswith(SUFFIX):

@@ -14,7 +14,7 @@ import course_pkg
 
 LINES = 12  # A traceback has at most this number of lines.
 WIDTH = 100  # A front end breaks a line that is longer than this number of characters.
-MESSAGE_LINES = 6  # A message has at most this number of lines, so at least two function calls can be shown.
+MESSAGE_LINES = 6  # At most this number of lines is for the message; two calls still fit.
 MORE = " … (%tb shows the rest)"
 # Folders with these names contain installed libraries, including the libraries of ROS.
 INSTALLED = ("site-packages", "dist-packages")
@@ -65,7 +65,7 @@ def _call(frame: traceback.FrameSummary, place_of: PlaceOf) -> list[str]:
 
 
 def _shortened(calls: list[list[str]], room: int) -> list[str]:
-    """Return the lines of all function calls; if they exceed `room` lines, return only the first and last."""
+    """Return the lines of all calls; if there are more than `room` lines, return only the first and last."""
     if sum(map(len, calls)) <= room:
         return [line for call in calls for line in call]
     last = max((room - 3) // 2, 1)
@@ -74,7 +74,7 @@ def _shortened(calls: list[list[str]], room: int) -> list[str]:
 
 
 def _before(error: BaseException, place_of: PlaceOf) -> list[str]:
-    """If another exception led to the error, return a line about that exception; otherwise, return []."""
+    """Return a line about the exception that led to `error`, or [] if there is none."""
     former = error.__cause__ or (None if error.__suppress_context__ else error.__context__)
     frames = list(students_frames(former.__traceback__)) if former is not None else []
     if former is None or not frames:

@@ -1,4 +1,4 @@
-"""Find the path of a node's program with the same rules as rosrun, but faster (rosrun takes 0.1 s)."""
+"""Find a node's program with the rules of rosrun, but faster: rosrun takes 0.1 s."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def package_folder(package: str) -> Path:
 def _programs(package: str) -> Iterator[Path]:
     """Yield the executable files of a package.
 
-    The built or installed files come first, and then the files in the source folder.
+    The built or installed files come before the files in the source folder.
     """
     for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep):
         yield from _executables(Path(prefix) / "lib" / package)

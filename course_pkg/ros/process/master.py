@@ -17,11 +17,11 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.waiting import at_this_load, wait_until
 
-# Wait up to this time in s for a new master. A master usually answers after 0.15 s, but much later on a busy
-# machine.
+# Wait up to this time in s for a new master. A master usually answers after 0.15 s; on a busy machine, this
+# takes much longer.
 READY = 15.0
 ATTEMPTS = 5
-ENDED = -1  # This value is used instead of the master's process id if the process has ended.
+ENDED = -1  # If the master's process has ended, this value replaces its process id.
 OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # With these variables, ROS would not bind to 127.0.0.1.
 
 
@@ -119,9 +119,9 @@ class PrivateMaster:
 def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> None:
     """Return as soon as the master at ROS_MASTER_URI answers.
 
-    Ctrl-C interrupts this function, but it does not interrupt the wait in init_node(). `interval` is the time
-    in s between two polls of the master. The function calls the function `warn` once if no master answers.
-    The function raises MalformedMasterUri if the URI is invalid, and NotAMaster if another program answers.
+    Unlike the wait in init_node(), Ctrl-C can interrupt this function. `interval` is the time in s between
+    two polls of the master. If no master answers, the function `warn` is called once. Raises
+    MalformedMasterUri if the URI is invalid, and NotAMaster if another program answers.
     """
     client, warned = MasterClient(master_uri()), False
     while True:

@@ -27,7 +27,7 @@ GRACE = 3.0  # A node has to end within this time in s after SIGINT; a node with
 
 
 class NodeProcess:
-    """A command that runs one or more nodes; all of them end when this process ends, or earlier.
+    """A command that runs one or more nodes. The nodes end when this process ends, or earlier.
 
     A temporary file stores the output of the command. The file is deleted together with this object.
     """
@@ -121,7 +121,7 @@ class NodeProcess:
             return
         ports = self._process.listening_ports() if unregister else frozenset()
         self._process.end(grace)
-        # A killed node, or a node that ended during its registration, could not unregister itself.
+        # A killed node could not unregister itself, nor could a node that ended during its registration.
         if registered := registered_at(ports):
             with suppress(GraphError):
                 withdraw(MasterClient(master_uri()), registered)
@@ -153,8 +153,8 @@ class NodeProcess:
 
     def _wait_until(self, condition: Callable[[], bool], timeout: float, never: str, not_yet: str) -> None:
         def settled() -> str:
-            # Read `running` before the output, because a process may print the expected output just before it
-            # ends.
+            # A process may print the expected output just before it ends. Therefore, read `running` before
+            # the output.
             ended = not self.running
             return "met" if condition() else "ended" if ended else ""
 

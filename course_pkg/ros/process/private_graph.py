@@ -91,10 +91,7 @@ class PrivateGraph:
 
 
 def _end(master: PrivateMaster, processes: list[NodeProcess]) -> None:
-    """End all programs at the same time, and then the master.
-
-    No registrations remain, because the master ends too.
-    """
+    """End all programs at the same time, and then the master; the registrations end with the master."""
     for process in processes:
         process.interrupt()
     while processes:

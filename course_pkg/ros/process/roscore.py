@@ -1,4 +1,4 @@
-"""Start what `roscore` starts: a master, its parameters, and the node /rosout."""
+"""Start the same things as `roscore`: a master, its parameters, and the node /rosout."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import at_this_load, wait_until
 
 ROSOUT = "/rosout"  # The node and its topic both have this name.
-# Wait up to this time in s for /rosout. The registration usually takes 0.05 s, but much longer on a busy
-# machine.
+# Wait up to this time in s for /rosout. The registration usually takes 0.05 s; on a busy machine, it takes
+# much longer.
 READY = 15.0
 INTERVAL = 0.005  # This is the time in s between two polls of /rosout.
 VERSION = re.compile(r"<version[^>]*>\s*([^<\s]+)")
@@ -51,7 +51,7 @@ class Roscore(PrivateMaster):
         """End /rosout and the master; a second call has no effect."""
         rosout, self._rosout = self._rosout, None
         if rosout is not None:
-            rosout.end(grace=0)  # The master ends next, so the node need not unregister.
+            rosout.end(grace=0)  # The master ends next, so /rosout need not unregister.
         super().stop()
 
     def _start_rosout(self) -> None:
@@ -110,5 +110,5 @@ def _parameters(prefix: Path) -> dict[str, str]:
 
 
 def _receives(client: MasterClient) -> bool:
-    """Return whether /rosout subscribes to the log messages; this is the last step when /rosout starts."""
+    """Return whether /rosout has subscribed to the log messages, the last step of its start."""
     return ROSOUT in client.system_state().subscribers.get(ROSOUT, ())

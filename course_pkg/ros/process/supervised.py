@@ -1,4 +1,4 @@
-"""Start a command; the command and all its descendants end when the owner process ends.
+"""Start a command. The command and all its descendants end with their owner, the process that started it.
 
 The command is a child of `supervisor.py`, a small process that observes the owner. When the owner has ended,
 even after SIGKILL, the supervisor ends the command and cleans up.
@@ -27,13 +27,13 @@ INTERPRETER = re.compile(r"(?<=/)libpython[^/\s]*$", re.MULTILINE)
 
 
 class SupervisedProcess:
-    """A command and its descendants; all of them end when this process ends, or earlier.
+    """A command and its descendants. They end when this process ends, or earlier.
 
-    When the command ends, its background processes also get SIGTERM, and SIGKILL after 2 s. The command runs
+    When the command ends, its background processes get SIGTERM. After 2 s, they get SIGKILL. The command runs
     in the folder `cwd` and inherits the file descriptors in `inherit`. At the end, the supervisor deletes the
-    folder `remove`. It also unregisters the node in `withdraw`, a tuple of the master's URI, the node's name
-    and the node's URI. If `command` is empty, the supervisor only waits until this process has ended, and
-    then cleans up.
+    folder `remove`. The supervisor also unregisters the node in `withdraw`: the master's URI, the node's name
+    and the node's URI. If `command` is empty, the supervisor only waits for the end of this process, and then
+    cleans up.
 
     If `foreground` is true, the command uses the standard input and the terminal of this process, and
     receives Ctrl-C. If `output` is None, the command also prints to the terminal. Raises GraphError if the
@@ -65,8 +65,7 @@ class SupervisedProcess:
                 env=env,
                 cwd=cwd,
                 pass_fds=[writer, *inherit],
-                # The command runs in a new session, so that an interrupt of the kernel does not interrupt the
-                # command.
+                # The command runs in a new session, so an interrupt of the kernel does not reach the command.
                 start_new_session=not foreground,
             )
         finally:
@@ -77,8 +76,8 @@ class SupervisedProcess:
     def returncode(self) -> int | None:
         """The command's exit status, or None while any of its processes is running.
 
-        The exit status is negative if a signal ended the command. A larger status than that of any signal,
-        such as 255, is the status that the command returned.
+        The exit status is negative if a signal ended the command. A positive status, such as 255, is the
+        status that the command returned.
         """
         status = self._process.poll()
         return 128 - status if status is not None and 128 < status < 128 + signal.NSIG else status
@@ -110,8 +109,9 @@ class SupervisedProcess:
     def programs(self) -> set[tuple[str, str]]:
         """Return (SHA-256 sum, name) of each file that the command and its descendants execute.
 
-        A loaded library of an interpreter (libpython) is also in the result; its sum is an empty string. The
-        result is empty if the kernel does not report the executed files, for example in an emulator.
+        If a process has loaded the library of an interpreter (libpython), the library is also in the result.
+        Its sum is an empty string. The result is empty if the kernel does not report the executed files, for
+        example in an emulator.
         """
         import psutil  # This import takes 15 ms, and most programs do not need it.
 
@@ -122,7 +122,7 @@ class SupervisedProcess:
         return set()
 
     def end(self, grace: float = 2.0) -> None:
-        """End the command and its descendants with SIGINT; after the time `grace` (s), kill them.
+        """End the command and its descendants with SIGINT. After `grace` s, kill them.
 
         In a forked child, this method does nothing.
         """
@@ -182,8 +182,8 @@ def _program(
     report: int, remove: Path | None, withdraw: tuple[str, str, str] | None, foreground: bool
 ) -> list[str]:
     cleaning = [str(remove or ""), *(withdraw or ("", "", ""))]
-    # With Python's options -I and -S, the supervisor starts in 20 ms and ignores modules on the student's
-    # import path.
+    # Python's options -I and -S make the supervisor start in 20 ms and ignore modules on the student's import
+    # path.
     start = [sys.executable, "-I", "-S", str(PROGRAM), str(os.getpid()), str(report)]
     return [*start, "foreground" if foreground else "", *cleaning]
 

@@ -1,8 +1,8 @@
-"""A process between an owner and a command: it ends the command after the owner has ended.
+"""This process runs between an owner and a command. It ends the command after the end of the owner.
 
 `supervised.py` runs this file as a script, in an interpreter without site-packages. The script starts in 20
-ms, because it imports the course and the course's libraries only for the clean-up at the end. To read /proc,
-the script does not use psutil, because the import of psutil is slow.
+ms, because it imports the course and its libraries only at the end, for the clean-up. The script reads /proc
+itself, because the import of psutil is slow.
 
 usage: supervisor.py OWNER REPORT FOREGROUND REMOVE MASTER NODE URI [COMMAND …]
 """
@@ -21,11 +21,11 @@ PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # These values are from linux/
 # A terminal sends these signals to all processes of a process group.
 FROM_TERMINAL = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)
 FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-# A command expects the default handlers of these signals, but Python or this program changes the handlers.
+# A command expects the default handlers of these signals. Python or this program has changed the handlers.
 CHANGED = (*FORWARDED, *FROM_TERMINAL, signal.SIGCHLD, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ)
 GRACE = 2.0  # The supervisor waits this time in s between SIGTERM and SIGKILL.
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-# On a system without pidfd, this is the time in ms between two polls of the parent's process id.
+# Without pidfd, the supervisor polls the parent's process id; this is the time in ms between two polls.
 INTERVAL = 200
 
 
@@ -107,9 +107,9 @@ class Supervisor:
     def _end_descendants(self) -> frozenset[int]:
         """End all descendants with SIGTERM, or with SIGKILL after `GRACE` s.
 
-        Orphaned descendants become children of this process. A descendant that is a supervisor is killed
-        `GRACE` s later, so that this supervisor can first clean up. The returned set contains the listening
-        ports of the killed processes.
+        Orphaned descendants become children of this process. Another supervisor among the descendants is
+        killed `GRACE` s later, because it needs this time to clean up. The returned set contains the
+        listening ports of the killed processes.
         """
         ports: frozenset[int] = frozenset()
         deadline = time.monotonic() + (0 if self.urgent else GRACE)
@@ -228,7 +228,7 @@ def _withdraw_registered(ports: frozenset[int]) -> None:
 def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
     """Unregister the owner's node, and delete the folder.
 
-    If `master_uri` is empty, nothing is unregistered; if `folder` is empty, nothing is deleted.
+    If `master_uri` is empty, the node is not unregistered. If `folder` is empty, nothing is deleted.
     """
     if master_uri:
         with suppress(ImportError):

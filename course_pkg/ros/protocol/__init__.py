@@ -1,1 +1,1 @@
-"""The protocols of ROS 1: a client of the master with time limits, registrations, and probes of nodes."""
+"""The protocols of ROS 1: a client for the master, registrations, and probes of nodes."""

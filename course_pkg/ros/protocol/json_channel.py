@@ -55,8 +55,8 @@ class JsonChannel:
             while line:
                 try:
                     sent = self._socket.send(line[:CHUNK], socket.MSG_DONTWAIT)
-                # poll() is called only after a failed send(), because poll() waits until most of the send
-                # buffer is free.
+                # poll() waits until most of the send buffer is free, so it is called only after send() has
+                # failed.
                 except BlockingIOError:
                     self._wait_for(select.POLLOUT, deadline)
                     continue
@@ -83,7 +83,7 @@ class JsonChannel:
         return _parsed(line)
 
     def close(self) -> None:
-        """Close the connection; all receive() calls, also in the other process, then raise ChannelClosed."""
+        """Close the connection. In both processes, all calls of receive() then raise ChannelClosed."""
         with suppress(OSError):  # The other process may have closed the connection.
             self._socket.shutdown(socket.SHUT_RDWR)
         self._socket.close()

@@ -12,13 +12,12 @@ from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient, it
 
 Addresses = dict[str, str]  # The dict maps the name of each node or service to its address.
 REMAP = "__master:="  # Source: http://wiki.ros.org/Remapping%20Arguments
-# The mapping assigns the names of nodes to each topic (its publishers or subscribers) or service (its
-# servers).
+# The mapping assigns nodes to each topic or service: the publishers, the subscribers, or the server.
 Registered = Mapping[str, tuple[str, ...]]
 
 
 def master_uri() -> str:
-    """Return the address at which rospy expects the master, from __master:= or from ROS_MASTER_URI."""
+    """Return the address at which rospy expects the master: from __master:=, or else from ROS_MASTER_URI."""
     named = [argument.removeprefix(REMAP) for argument in sys.argv if argument.startswith(REMAP)]
     return next(iter(named), "") or os.environ.get("ROS_MASTER_URI") or "http://localhost:11311"
 
@@ -144,11 +143,11 @@ class MasterClient(XmlRpcClient):
         return [str(uri) for uri in publishers]
 
     def unregister_service(self, node: str, name: str, uri: str) -> bool:
-        """Unregister a service if it is registered with this address; return whether it was registered."""
+        """Unregister a service with this address; return whether the master had this registration."""
         return bool(self._value("unregisterService", name, uri, caller=node))
 
     def unregister_publisher(self, node: str, topic: str, node_uri: str) -> bool:
-        """Unregister a publisher if it is registered for this node; return whether it was registered."""
+        """Unregister a publisher of this node; return whether the master had this registration."""
         return bool(self._value("unregisterPublisher", topic, node_uri, caller=node))
 
     def _found(self, method: str, name: str, timeout: float | None) -> str | None:

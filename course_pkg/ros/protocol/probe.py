@@ -1,4 +1,4 @@
-"""Send one request to each of many addresses at the same time, on one thread and with a time limit."""
+"""Send requests to many addresses at the same time, on one thread, with a time limit."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Reach(Enum):
     ANSWERED = "answered"
     REFUSED = "refused"  # No process listens at the address, so the node has ended.
     SILENT = "silent"  # A process listens but does not respond, because it is suspended or busy.
-    # The host cannot be reached, or the connection was closed before the response was complete.
+    # The host cannot be reached, or the connection closed before the response was complete.
     LOST = "lost"
 
 

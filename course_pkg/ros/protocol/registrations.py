@@ -51,10 +51,10 @@ def registrations(master: MasterClient, nodes: Collection[str] | None = None) ->
 
 
 def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Registration]:
-    """Remove the registrations `entries` with one request, and return the entries that were still registered.
+    """Remove the registrations `entries` with one request, and return the removed entries.
 
-    The master removes an entry only if the entry's address is still registered, so registrations of other
-    processes are not removed.
+    The master removes an entry only if the address is still the registered address. Therefore, registrations
+    of other processes are not removed.
     """
     listed = list(entries)
     answers = master.multicall([(METHODS[each.kind], each.node, each.name, each.uri) for each in listed])
@@ -62,7 +62,7 @@ def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Regi
 
 
 def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Registration]:
-    """Unregister the node if it still has this address; do not unregister a newer node with the same name.
+    """Unregister the node if it is registered with this address; a newer node of the same name stays.
 
     If a second process registers with the same node name, the master deletes the registrations of the first
     process (rosmaster/registrations.py). All registrations under a node name therefore belong to the process
@@ -83,7 +83,7 @@ def registered_at(ports: Collection[int]) -> list[Registration]:
     """Return the registrations whose addresses have one of these ports; without a master, return [].
 
     The function uses the master at ROS_MASTER_URI. A process listens on the ports of the addresses that it
-    registers. Read the ports of a process while it is running, because an ended process listens on no port.
+    registers. Read the ports while the process runs, because an ended process listens on no port.
     """
     if ports:
         with suppress(GraphError):  # Without a master, there are no registrations.
@@ -102,8 +102,7 @@ def remove_stale(
 
 
 def _stale(master: MasterClient, nodes: Collection[str] | None, timeout: float) -> list[Registration]:
-    # This import is inside the function, because the supervisor imports this module without the libraries of
-    # ROS.
+    # The supervisor imports this module without the libraries of ROS, so this import is inside the function.
     from course_pkg.ros.protocol.probe import Reach, ask_all, node_probe, service_probe
 
     entries = registrations(master, nodes)

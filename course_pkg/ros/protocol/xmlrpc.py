@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 
 RpcValue = Union[bool, int, float, str, bytes, None, "list[RpcValue]", "dict[str, RpcValue]"]
 
-# One of these errors is raised if the server has closed an idle connection.
+# http.client raises one of these errors if the server has closed an idle connection.
 STALE = (ConnectionResetError, ConnectionAbortedError, BrokenPipeError, HTTPException)
-# One of these errors is raised if a response is not valid XML-RPC, or if it is a fault.
+# ask() raises one of these errors if a response is not valid XML-RPC, or is a fault.
 NO_ANSWER = (HTTPException, ExpatError, Fault, LookupError, TypeError, ValueError)
 
 
@@ -65,7 +65,7 @@ class XmlRpcClient:
         while self._idle:
             connection = self._idle.pop()
             if connection.pid != os.getpid():
-                continue  # This process is a fork. Its parent uses this connection, so do not use it here.
+                continue  # This process is a fork. The parent process uses this connection.
             try:
                 return self._over(connection, body, deadline)
             except STALE:

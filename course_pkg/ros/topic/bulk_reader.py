@@ -1,4 +1,4 @@
-"""Read many topics on one thread, many messages at a time, for a panel that draws the messages.
+"""Read many topics on one thread for a panel that draws their messages.
 
 A subscriber of rospy wakes up for each message. At hundreds of messages per second, such a subscriber uses
 too much CPU time. The reader therefore uses TCPROS (http://wiki.ros.org/ROS/TCPROS) without rospy, and reads
@@ -35,9 +35,9 @@ Received = Callable[[str, list[bytes]], None]
 class BulkReader:
     """Reads all topics of the given types, from start() to stop().
 
-    The reader calls the function `received` with a topic and its new messages (serialised, in order). The
-    reader calls the function `missing` with a topic that no longer has a publisher. The reader calls the
-    function `done` after each read. All three functions run on the reader's thread.
+    The reader calls the function `received` with a topic and its new messages. The messages are serialised
+    and in order. The reader calls the function `missing` with a topic that no longer has a publisher. The
+    reader calls the function `done` after each read. All three functions run on the reader's thread.
     """
 
     def __init__(
@@ -61,7 +61,7 @@ class BulkReader:
             thread.start()
 
     def stop(self) -> None:
-        """Stop before the next read; return without waiting for the thread."""
+        """Stop before the next read; do not wait for the end of the thread."""
         if self._stop is not None:
             self._stop.set()
             self._stop = None

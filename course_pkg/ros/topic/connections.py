@@ -16,7 +16,7 @@ ANY = "*"  # This is the type of a subscriber that accepts all types, such as `r
 
 
 def find_connections(master: MasterClient, topic: str) -> Connections:
-    """Return the type, publishers and subscribers of the topic; the caller adds the key "sources".
+    """Return the type, the publishers and the subscribers of the topic; the caller adds the key "sources".
 
     Raises GraphError if a request to the master fails.
     """

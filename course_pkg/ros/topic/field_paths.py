@@ -13,13 +13,12 @@ from course_pkg.ros.node.type_lookup import Message
 from course_pkg.types import Field, Kind, MessageType
 
 ELEMENTS = 8  # For an array, at most this number of elements is listed.
-# For a message, at most this number of paths is listed, because nested arrays may contain thousands of
-# numbers.
+# For a message, at most this number of paths is listed: nested arrays may contain thousands of numbers.
 MOST = 200
 
 # A measurement is most probably a float, and least probably a bool.
 _NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)
-# These fields are not measurements: the time and frame of a measurement, and the sensor's limits.
+# These fields are not measurements: the time and the frame of a measurement, and the limits of the sensor.
 _HEADER = "std_msgs/Header"
 _SETTING = re.compile(r"(^|_)(min|max|increment|scan_time|field_of_view)(_|$)")
 
@@ -35,9 +34,10 @@ def numbers(message: MessageType) -> list[str]:
 def measurement(message: MessageType) -> str:
     """Return the path of the number that is most probably the measurement, or "" if there is no number.
 
-    Fields in a std_msgs/Header and settings of the sensor, such as `range_min`, are not measurements. Among
-    all other fields, the function selects the first float, or else the first integer, or else the first bool.
-    If the message has no other fields, the function returns the first number in the message.
+    Fields in a std_msgs/Header and settings of the sensor, such as `range_min`, are not measurements. From
+    all other fields, the function selects the first float. Without a float, it selects the first integer, and
+    without an integer, the first bool. If the message has no other fields, the function returns the first
+    number in the message.
     """
     measured = [found for found in _first_numbers(message, _HEADER) if not _SETTING.search(found[0])]
     by_kind = [path for wanted in _NUMBERS for path, kind in measured if kind is wanted]

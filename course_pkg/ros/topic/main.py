@@ -1,7 +1,7 @@
 """The program of a topic process, started by `python -m course_pkg.ros.topic.main DESCRIPTOR TOPIC`.
 
-The process receives commands through its channel. The name of a command is in the field "do", and these are
-the other fields:
+The process receives commands through its channel. The field "do" contains the name of a command; the other
+fields are:
 
     type      name, text           the type of the topic; text is "" if the type is built
     publish   texts, latch, queue, count
@@ -39,7 +39,7 @@ from course_pkg.ros.topic.subscription import ReceivedMessage, TopicSubscription
 from course_pkg.types import MessageType, StringTree, compile_message, message_type
 
 REPORT_INTERVAL = 0.1  # Two reports have at least this time in s between them.
-SELDOM = 3  # Every third report also contains the data that takes long to compute or to send.
+SELDOM = 3  # Only every third report contains the data that takes long to compute or to send.
 GRAPH_INTERVAL = 1.0  # This is the time in s between two requests to the master.
 
 
@@ -80,7 +80,7 @@ class TopicNode:
     def _join(self) -> None:
         """Become a node.
 
-        While no master answers, report the error; rospy alone would wait without a message.
+        As long as no master answers, report the error; rospy would wait without a message.
         """
         while True:
             try:
@@ -128,7 +128,7 @@ class TopicNode:
         """Find the nodes on the topic, and register again after a restart of the master."""
         try:
             with self._registering:
-                # After leave(), the node is not registered, and it must not register again.
+                # After leave(), the node is not registered, and this method must not register it again.
                 if not rospy.is_shutdown() and not node_known(self._master):
                     register_all(self._master)
             self._connections = find_connections(self._master, self._topic)

@@ -1,4 +1,4 @@
-"""The publisher of a topic process: it publishes once, several times without a pause, or at a rate."""
+"""The publisher of a topic process. It publishes once, several times without a pause, or at a rate."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ CATCH_UP = 0.25
 class Timer:
     """Calls the function `tick` on a separate thread, until stop(); `rate` is in calls per second.
 
-    A late tick does not delay the next ticks. A tick with a delay of more than `CATCH_UP` s is skipped, and
-    counted in `skipped`. If `tick` raises an exception, the timer calls the function `failed` with the
-    exception and ends.
+    A delayed tick does not delay the next ticks. A tick with a delay of more than `CATCH_UP` s is skipped;
+    `skipped` is the number of skipped ticks. If `tick` raises an exception, the timer calls the function
+    `failed` with the exception and ends.
     """
 
     def __init__(self, rate: float, tick: Callable[[], None], failed: Callable[[Exception], None]) -> None:

@@ -1,4 +1,4 @@
-"""The reports of a topic process, as JSON data: a program can read them without ROS."""
+"""The reports of a topic process as JSON data, which a program can read without ROS."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Statistics of a topic: the rate of its messages, and recent values of a field. The memory is limited."""
+"""Compute the rate of a topic's messages, and store recent values of a field, in limited memory. The memory is limited."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from itertools import pairwise
 from course_pkg.ros.topic.reports import Figures
 
 WINDOW = 3.0  # A rate is measured over this time in s.
-FEW = 5  # At least this number of messages is used, even if they are older than WINDOW.
+FEW = 5  # At least this number of messages is used, even if some of them are older than WINDOW.
 MOST = 5000  # A rate is computed from at most this number of messages.
-# There are no statistics if the last message is older than 2 s and older than this number of mean gaps.
+# There are no statistics if the last message is older than 2 s and also older than this number of mean gaps.
 SILENCE = 3.0
 SPAN = 20.0  # A series contains only values that are at most this old (s).
 STEP = 0.1  # At most four values are stored for each time step of this length in s.
@@ -33,9 +33,9 @@ class RateStatistics:
             self._times.append(at)
 
     def figures(self, now: float) -> Figures:
-        """Return the statistics of the events in the last 3 s, or of the last 5 events if these are more.
+        """Return the statistics of the events in the last 3 s, but of at least the last 5 events.
 
-        If the last event is older than 2 s and older than three mean gaps, the returned dict is empty.
+        The result is empty if the last event is older than 2 s and also older than three mean gaps.
         """
         times = self._latest(now)
         if len(times) < 2:

@@ -19,8 +19,8 @@ from course_pkg.ros.node.type_lookup import Message
 from course_pkg.ros.topic.reports import Source
 from course_pkg.ros.topic.statistics import DownsampledSeries, RateStatistics
 
-CAPACITY = 10  # Only the last messages, up to this number, are stored.
-LONGEST = 16_384  # The body of a message that is longer than this number of bytes is not stored.
+CAPACITY = 10  # At most this number of messages is stored: the last ones.
+LONGEST = 16_384  # A message body with more bytes than this number is not stored.
 
 Extract = Callable[[bytes], float]
 

@@ -24,9 +24,9 @@ from course_pkg.types import Plain
 Report: TypeAlias = dict[str, Json]
 
 TAIL = 600  # An error message contains at most this number of characters of the process's output.
-GRACE = 6.0  # Wait up to this time in s for the end of the process, which may still be importing rospy.
-# After a node was killed, a busy master may still process a registration of this node. The node is therefore
-# unregistered several times.
+GRACE = 6.0  # Wait up to this time in s for the end of the process; it may still be importing rospy.
+# After the end of a killed node, a busy master may still process its registration. This process therefore
+# unregisters the node several times.
 PAUSES = (0.0, 0.5, 2.0)  # Each number is the time in s before an attempt to unregister the node.
 
 
@@ -63,7 +63,7 @@ class TopicProcess:
         threading.Thread(target=self._receive, daemon=True, name="topic-reports").start()
 
     def tell(self, do: str, **what: Plain) -> None:
-        """Send the command `do`; if the process has ended, nothing happens."""
+        """Send the command `do`; do nothing if the process has ended."""
         with suppress(ChannelClosed):  # _receive() reports a closed channel.
             self._channel.send({"do": do, **what})
 
@@ -112,7 +112,7 @@ class TopicProcess:
 def _environment() -> dict[str, str]:
     """Return an environment in which Python does not import from the current folder.
 
-    If Python also imported from the notebook's folder, a file there could replace a module of the course.
+    Otherwise, a file in the notebook's folder could replace a module of the course.
     """
     here = os.getcwd()
     course = str(Path(course_pkg.__file__).resolve().parent.parent)

@@ -19,11 +19,11 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
 
 TIMEOUT = 0.5  # This is the time limit of a poll in s.
-# The third item of the response to getBusStats contains the statistics of services; in rospy, it is empty.
+# The third item of the response to getBusStats contains the statistics of services. In rospy, it is empty.
 STATISTICS = "getBusStats"
 
 Callers = dict[str, tuple["ServiceCaller", ...]]
-# One of these errors is raised if a response has an unexpected structure.
+# Reading a response raises one of these errors if the response has an unexpected structure.
 INVALID = (ExpatError, Fault, LookupError, TypeError, ValueError)
 
 
@@ -96,7 +96,7 @@ class ActivityPoller:
             if (peer := self._peers[uris[name]].get(each.connection))
         ]
         callers = {name: found for probe in probes.values() for name, found in _callers(probe).items()}
-        # The counts of a node cannot be used if no subscriber of its connections is known.
+        # Without a known subscriber, the counts of a node cannot be used.
         known = {name for name, found in counts.items() if self._peers[uris[name]] or not found}
         silent = frozenset(node.name for node in snapshot.nodes if node.name not in known)
         return Activity(time.monotonic(), tuple(sorted(traffic)), silent, callers)
@@ -152,8 +152,7 @@ def _counts(probe: Probe) -> list[_Count] | None:
             for number, *_, messages, _ in connections
         ]
     except INVALID:
-        # After a connection has sent 2 GiB, rospy returns an error, because the byte count is too large for
-        # XML-RPC.
+        # rospy returns an error after a connection has sent 2 GiB: the byte count is too large for XML-RPC.
         return None
 
 

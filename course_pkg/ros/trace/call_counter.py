@@ -6,7 +6,8 @@ import threading
 import time
 from dataclasses import dataclass
 
-# A service has at most this many stored callers. Each run of a command-line tool is a caller with a new name.
+# At most this many callers are stored for a service. Each run of a command-line tool is a caller with a new
+# name.
 CALLERS = 100
 # The tuple contains the caller, the number of its calls, the time of its latest call (s since the epoch), and
 # the number of its running calls.
@@ -35,7 +36,7 @@ class CallCounter:
             counted.calls += 1
             counted.last = time.time()
             counted.running += 1
-            callers[caller] = counted  # The dict is sorted, with the latest caller at the end.
+            callers[caller] = counted  # The latest caller is at the end of the dict.
             if len(callers) > CALLERS:
                 self._forget_one(callers)
 

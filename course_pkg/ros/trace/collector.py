@@ -18,7 +18,7 @@ from course_pkg.ros.trace.recording import GET_RECORD, MASTER, PUBLISH, ProcessR
 
 # Wait up to this time in s for the responses of all nodes; a response with 20,000 spans takes 0.3 s.
 TIMEOUT = 1.0
-LEFT_OUT = ("/rosout",)  # This node receives log messages, and log messages are not recorded.
+LEFT_OUT = ("/rosout",)  # This node receives only log messages, which are not recorded.
 REASONS = {
     Reach.REFUSED: "its process has ended",
     Reach.SILENT: f"it did not answer within {TIMEOUT:g} s, so it is paused or busy",
@@ -105,7 +105,7 @@ def _fill(recording: Recording, collected: _Collected, start: float, end: float)
 
 
 def _ended(recording: Recording, collected: _Collected) -> list[str]:
-    """Return the nodes that occur in records of other nodes, but ended before they sent their own records."""
+    """Return the nodes in records of other nodes that ended before they sent their own records."""
     peers = {event.peer for event in recording.events if event.kind != PUBLISH}
     peers |= {peer for event in recording.events if event.kind == PUBLISH for peer in event.peer.split(", ")}
     known = {*recording.nodes, *collected.unrecorded, *LEFT_OUT, MASTER, "unknown", ""}

@@ -1,8 +1,8 @@
 """Count the sent, waiting and dropped messages of a publisher, for each subscriber.
 
-If a publisher has a queue_size, rospy puts each message into one queue per subscriber. A thread sends the
-messages of a queue. When a queue is full, rospy drops the oldest message without an error message. This
-module replaces the queue with a queue that counts the messages.
+For a publisher with a queue_size, rospy creates a queue for each subscriber. A thread sends the messages of a
+queue. When a queue is full, rospy drops the oldest message without an error message. This module replaces the
+queue with a queue that counts the messages.
 
 A message counts as sent when it is written to the connection. A slow subscriber may drop the message later;
 the publisher cannot detect this.
@@ -62,7 +62,7 @@ class Deliveries(rospy.SubscribeListener):
 
     @property
     def dropped(self) -> int:
-        """The number of messages that were dropped from full queues, summed over all subscribers."""
+        """The number of messages dropped from full queues, for all subscribers together."""
         return sum(each.dropped for each in self._all())
 
     @property
@@ -100,8 +100,8 @@ class _CountedQueue(list[bytes]):
 class _CountedConnection(QueuedConnection):
     """A connection with a counting queue.
 
-    When rospy starts to send the messages in the queue, it assigns a new list to `_queue`. This class
-    replaces the new list with a counting queue, too.
+    Before rospy sends the messages in the queue, it assigns a new list to `_queue`. This class replaces the
+    new list with a counting queue, too.
     """
 
     queued = 0

@@ -1,8 +1,8 @@
 """Send the record of a node to other nodes before the node ends.
 
-Without the records that ending nodes send, a recording would not include nodes that run only briefly. A node
-that makes a recording stores its address in a parameter of the master. A node that ends sends its record to
-this address by XML-RPC. A killed node cannot send its record.
+Otherwise, a recording would not include nodes that run only for a short time. A node that makes a recording
+stores its address in a parameter of the master. A node that ends sends its record by XML-RPC to this address.
+A killed node cannot send its record.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from course_pkg.ros.trace.recorder import recorder
 
 KEEP = "keepCourseRecord"
 PARAMETER = "/course_recorders"
-TIMEOUT = 0.5  # Each call takes at most this time in s. A longer time would delay the end of a node.
+TIMEOUT = 0.5  # Each call takes at most this time in s. A longer call would delay the end of a node.
 LONGEST = 600.0  # A node that ends sends its record of the last 600 s.
 # This attribute marks the registration manager of a node that sends its record when it ends.
 PREPARED = "prepared_for_handover_by_course"
@@ -35,13 +35,14 @@ def hand_over_at_exit() -> None:
     manager = registration_manager()
     if manager is not None and not getattr(manager, PREPARED, False):
         setattr(manager, PREPARED, True)
-        # The master's address is None after leave() has sent the record, or if the master did not answer.
+        # The master's address is None if leave() has already sent the record, or if the master did not
+        # answer.
         rospy.core.add_shutdown_hook(lambda _reason: hand_over() if manager.master_uri else None)
 
 
 @contextmanager
 def handovers(node: str, uri: str, master: MasterClient) -> Iterator[None]:
-    """Let each node that ends during the `with` block send its record to the node at the address `uri`."""
+    """During the `with` block, let each node that ends send its record to the node at the address `uri`."""
     parameter = f"{PARAMETER}{node}_{next(recorder().numbers)}"
     own, announced = recorder(), False
     own.recordings += 1

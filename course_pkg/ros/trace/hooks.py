@@ -11,7 +11,7 @@ from typing import Any
 from rospy.impl.tcpros_base import TCPROSTransport
 
 HOOKED = "hooked_by_course"  # This attribute marks a method that has been replaced.
-TRANSPORT = "TCPROSTransport"  # rospy's modules create their connections with the class of this name.
+TRANSPORT = "TCPROSTransport"  # rospy's modules create their connections with the class that has this name.
 
 Method = Callable[..., Any]  # rospy has no type annotations.
 

@@ -1,9 +1,9 @@
 """Combine the records of several nodes: match handlers with requests, and callbacks with messages.
 
-The publisher and the subscriber both count the messages of a connection. Two records describe one message if
-they have the same topic or service, the same connection, and the same number. A later connection may use the
-same ports again. Records are therefore not matched if several matches are possible, or if their times
-contradict each other.
+The publisher and the subscriber count the messages of a connection separately. Two records describe one
+message if they have the same topic or service, the same connection, and the same number. A later connection
+may use the same ports again. Records are therefore not matched if there are several possible matches, or if
+the times of the records contradict each other.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ TransferKey = tuple[str, str, int]
 
 @dataclass(frozen=True)
 class NodeRecord:
-    """The record of one process; two processes may have run the same node one after the other."""
+    """The record of one process; one node can have several records if its process was restarted."""
 
     node: str
     process: int
@@ -150,7 +150,7 @@ def _keys(spans: Iterable[Span]) -> dict[Exchange, str]:
 
 
 def _thread_names(spans: Iterable[Span]) -> dict[tuple[str, int, str], str]:
-    """Return a name for each thread; if several threads have the same name, a number is added to the name."""
+    """Return a name for each thread; add a number to the name if several threads have the same name."""
     named: dict[tuple[str, str], list[int]] = defaultdict(list)
     threads: dict[tuple[str, int, str], str] = {}
     for each in spans:
@@ -188,7 +188,7 @@ def _event(
 
 
 def _note(data: SpanData, ended: bool) -> str:
-    """Return the note on a span, such as an error message; a span that has not ended may have no note yet."""
+    """Return the note on a span, such as an error message; a running span may have no note yet."""
     if data["kind"] != PUBLISH:
         return data["note"] if ended else ""
     if not ended:

@@ -1,6 +1,6 @@
 """The recorder of a process: the latest calls, messages and callbacks, and the call count of each caller.
 
-Times are values of time.monotonic(). On Linux, this function reads CLOCK_MONOTONIC. All processes of a
+Times are values of time.monotonic(). On Linux, time.monotonic() reads CLOCK_MONOTONIC. All processes of a
 machine share this clock, so the times of several nodes can be compared. Sources: clock_gettime(2) and
 https://docs.python.org/3/library/time.html#time.monotonic ("system-wide").
 
@@ -39,8 +39,7 @@ EXCHANGED = (REQUEST, WAIT, RESPONSE)  # These phases of a call use the connecti
 # A connection is identified by the client's numeric address and the server's port. Client and server both
 # know these values.
 Connection = tuple[Sequence[str | int], int]
-# A message is identified by its connection and its number on this connection; the string is the name of the
-# other node.
+# A message is identified by its connection and its number on this connection.
 Transfer = tuple[Connection, int, str]
 
 
@@ -96,8 +95,8 @@ class CallPart:
 class CallSpan:
     """A call with all its phases.
 
-    All phases of a call are stored in one object, because the recorder must not make calls slower. `result`
-    is RESPONSE or ERROR, and empty until the call has ended. `transfer` is the connection and number of the
+    One object stores all phases of a call, because the recorder must not make calls slower. `result` is
+    RESPONSE or ERROR, and empty until the call has ended. `transfer` is the connection and number of the
     request.
     """
 
@@ -205,8 +204,7 @@ class Recorder:
             span.end = time.monotonic()
             if note:
                 span.note = note[:LONGEST]
-            # The span is added to `_ended` first, so that other threads always find it in at least one
-            # collection.
+            # The span is first added to `_ended`, so other threads always find it in at least one collection.
             self._ended.append(span)
             self._lasting.discard(span)
 
@@ -244,7 +242,8 @@ def _transfer_data(transfer: Transfer) -> tuple[str, int, str]:
 
 
 def _thread() -> Thread:
-    # Do not store the thread object in the span, because a server creates a new thread for each call.
+    # Do not store the thread object: a server creates a new thread for each call, and the spans would keep
+    # all these threads in memory.
     thread = threading.current_thread()
     return thread.name, thread.ident or 0
 

@@ -11,8 +11,8 @@ CONNECT = "connect"  # The caller connects to the server, and they exchange head
 REQUEST = "request"
 WAIT = "wait"  # The caller waits until the response arrives.
 RESPONSE = "response"  # The caller has received the response.
-# The call fails. `note` is the error message. `peer` is the server if the server sent this message, or else
-# "".
+# The call fails. `note` is the error message. `peer` is the server if the server sent this message, and ""
+# otherwise.
 ERROR = "error"
 HANDLER = "handler"
 PUBLISH = "publish"

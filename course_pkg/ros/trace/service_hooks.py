@@ -34,7 +34,7 @@ R = TypeVar("R")
 
 
 def hook_services() -> bool:
-    """Record this process's calls and handlers from now on; return whether this is possible."""
+    """Record this process's calls and handlers from now on; return whether the hooks fit rospy."""
     hooks = (
         Hook(ServiceProxy, "call", ("self", "args", "kwds"), _recording_call, uses=[TRANSPORT]),
         Hook(ServiceProxy, "_get_service_uri", ("self", "request"), _recording_lookup),
@@ -191,7 +191,7 @@ def _recording_handler(
             return method(self, transport, request)
         finally:
             transport.handling = None
-            # If a response has already ended the span, this call has no effect.
+            # This call has no effect if a response has already ended the span.
             recorder().end(span, NO_ANSWER)
             recorder().call_counter.end(self.resolved_name, caller)
 

@@ -1,8 +1,8 @@
 """The recorder's hooks for messages, in rospy's publishers and subscribers.
 
 A message is identified by its connection (the TCP ports) and by its number on this connection. The publisher
-counts the messages that it sends, because its queue may drop messages before they are sent. The subscriber
-counts the messages that arrive, because its queue may drop messages after they have arrived.
+counts the messages that it sends: its queue may drop messages before it sends them. The subscriber counts the
+messages that arrive: its queue may drop messages after their arrival.
 
 rospy has no hooks for messages, so this module replaces a few methods of rospy. If the installed release of
 rospy has different methods, the module changes nothing.
@@ -31,7 +31,7 @@ from course_pkg.ros.trace.recording import CALLBACK, PUBLISH
 
 UNSUPPORTED = "messages: this rospy publishes and receives them in another way"
 LEFT_OUT = "/rosout"  # Log messages would fill a recording.
-# This attribute of a connection's protocol is the number of messages that have arrived.
+# This attribute of a connection's protocol contains the number of arrived messages.
 ARRIVED = "arrived_by_course"
 TO_ONE = "sent only to one new subscriber"
 
@@ -40,7 +40,7 @@ R = TypeVar("R")
 
 
 def hook_topics() -> bool:
-    """Record this process's published and received messages from now on; return whether this is possible."""
+    """Record this process's messages from now on; return whether the hooks fit this release of rospy."""
     hooks = (
         Hook(TCPROSSub, "read_messages", ("self", "b", "msg_queue", "sock"), _counting_messages),
         Hook(
@@ -77,7 +77,7 @@ class TaggingBuffer(BytesIO):
     span: Span | None = None
 
     def getvalue(self) -> bytes:
-        """Return the contents, as TaggedBytes if the message has a span."""
+        """Return the contents; if the message has a span, return TaggedBytes."""
         if self.span is None:
             return super().getvalue()
         with self.getbuffer() as view:
@@ -217,7 +217,7 @@ def _recording_callback(
     ) -> R:
         if self.resolved_name == LEFT_OUT:
             return method(self, msg, cb, cb_args)
-        batch = _current().batch  # The batch is None if a new callback receives an older, latched message.
+        batch = _current().batch  # It is None if a new callback receives an old latched message.
         transfers = batch.transfers(msg) if batch is not None else []
         peer = transfers[0][2] if transfers else ""
         span = recorder().begin(CALLBACK, self.resolved_name, peer, transfers)

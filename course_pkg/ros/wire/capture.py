@@ -1,7 +1,7 @@
 """The bytes of a real call, recorded between a client and a server.
 
-The lookup and the connection go through relays (relay.py), which forward all bytes. The client is a transport
-object of rospy.
+The lookup at the master and the connection to the server go through relays (relay.py), which forward all
+bytes. The client is a transport object of rospy.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def record_call(
 
 
 class _Relayed(BoundedProxy):
-    """A proxy for one call; its lookup and its connection go through relays."""
+    """A proxy for one call; relays forward its lookup and its connection."""
 
     def __init__(
         self,

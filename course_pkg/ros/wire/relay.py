@@ -161,9 +161,9 @@ class Relay:
 def _copy(
     source: socket.socket, sink: socket.socket, from_client: bool, connection: RelayedConnection
 ) -> None:
-    """Forward the bytes from `source` to `sink`; after the last byte, end the stream to `sink`."""
+    """Forward the bytes from `source` to `sink`, and then close `sink` for writing."""
     kept = 0
-    # It is not an error if the connection was reset, or if close() ended the connection.
+    # It is no error if the connection was reset or if close() ended it.
     with suppress(OSError):
         while data := source.recv(CHUNK):
             kept += len(data)
