@@ -12,8 +12,8 @@ Each part runs in a new process, forked from a process that has imported all mod
                 ├─ command_runner.py  runs the check's commands; the student's kernel cannot change them
                 └─ student_process.py  the answer: no privileges, its own users and processes, limited memory
 
-If the machine forbids namespaces, users.py offers a weaker sandbox.
+users.py offers a weaker sandbox for machines that forbid namespaces.
 
-All processes of a sandbox exchange JSON. Messages from `student_process.py` are shown as feedback, but never
-trusted.
+All processes of a sandbox exchange JSON. Messages from `student_process.py` are shown as feedback, but they
+are never trusted.
 """

@@ -26,7 +26,8 @@ class Message(TypedDict, total=False):
     job: bool  # The worker sends a job.
     supervisor: int  # This is the process id of a supervisor that has started its processes.
     port: int  # The master of the part uses this port.
-    # This is the process id of a process. The answer runs in this process, or in a descendant.
+    # This is the process id of the student's process. The answer runs in the student's process or in one of
+    # its descendants.
     student: int
     over: int  # A supervisor and all its descendants have ended; this is the supervisor's wait status.
 
@@ -71,8 +72,8 @@ def fork(work: Callable[[], None]) -> int:
 def share_memory_with_children() -> None:
     """Exclude all existing objects from garbage collection.
 
-    The garbage collector writes to each object, so each fork would copy the memory of all objects. Without
-    these copies, a part needs 20 % less CPU time.
+    The garbage collector writes to each object. After each fork, this would copy the memory of all objects.
+    Without these copies, a part needs 20 % less CPU time.
     """
     gc.collect()
     gc.freeze()

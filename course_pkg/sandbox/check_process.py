@@ -1,6 +1,6 @@
 """The check runner: a trusted process that runs the check of one part of an exercise.
 
-Each check runs in a new check runner, which is forked and enters the network namespace of the part.
+Each check runs in a new check runner, a forked process that enters the network namespace of the part.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """During grading, run the commands of a check in a process that the student's kernel cannot change.
 
-When a student runs a check, the student's kernel runs the commands of the check. During grading, a student's
-kernel could report a false result, for example that a failed build succeeded. A process in another sandbox
-therefore runs the commands and reads the part's folder.
+When a student runs a check, the student's kernel also runs the commands of the check. During grading, a
+student's kernel could report a false result, for example that a failed build succeeded. In grading, a process
+in another sandbox therefore runs the commands and reads the part's folder.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class SplitChannel(Channel):
 def run_commands(sock: socket.socket, folder: str, own: str) -> None:
     """Execute the requests of the check runner until the check runner closes the channel.
 
-    In a sandbox, the student's folder is read-only. `own` is a folder for the files of ROS and for temporary
-    files; other processes cannot read `own`. Without a sandbox, `own` is an empty string.
+    In a sandbox, the student's folder is read-only. `own` is a folder for temporary files and the files of
+    ROS; other processes cannot read it. Without a sandbox, `own` is an empty string.
     """
     if own:
         be_unreadable()

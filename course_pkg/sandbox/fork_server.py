@@ -1,4 +1,4 @@
-"""The process that forks a new process for each part; it has imported all modules except the checks."""
+"""This process forks a new process for each part. It has imported all modules except the checks."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ def serve_forks(sock: socket.socket, private: str, *, isolation: Isolation) -> N
         send(sock, {"ready": True})
         while True:
             _, (job_file, messages, commands) = receive(sock)
-            # This process does not read the job, because processes of later parts could find the job in its
-            # memory.
+            # This process does not read the job. Otherwise, processes of later parts could find the job in
+            # its memory.
             pid = fork(lambda: supervise(job_file, shell, sock, messages, commands, isolation=isolation))  # noqa: B023
             for descriptor in (job_file, messages, commands):
                 os.close(descriptor)
             status = os.waitpid(pid, 0)[1]
-            end_all_below(CLEAR_TIMEOUT)  # In a sandbox, only processes of the ended job can be left.
+            end_all_below(CLEAR_TIMEOUT)  # In a sandbox, all remaining processes belong to the ended job.
             if isolation.users:
                 users.clear(isolation.users)
             send(sock, {"over": status})

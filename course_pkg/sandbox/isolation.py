@@ -18,7 +18,7 @@ class Kind(str, Enum):
 
 
 class Isolation(NamedTuple):
-    """The isolation of a running worker; `users` is set only for the kind USERS."""
+    """The isolation of a running worker; `users` has a value only for the kind USERS."""
 
     kind: Kind
     users: Users | None = None

@@ -11,7 +11,8 @@ from course_pkg.checking.report import Report, report_from
 from course_pkg.types.fields import Plain
 from course_pkg.waiting import at_this_load
 
-# Each cell before or after the answer has this time limit in s, because such a cell may start nodes.
+# Each cell before or after the answer has this time limit in s. The limit is long because such a cell may
+# start nodes.
 SETUP_TIMEOUT = 25.0
 ANSWER_TIMEOUT = 20.0  # A student's cell has this time limit in s.
 
@@ -78,7 +79,7 @@ class PartJob:
 
     @property
     def limit(self) -> float:
-        """The time limit for this part in s; after this time, all processes of the part are ended."""
+        """The time limit for this part in s; then all processes of the part are ended."""
         return at_this_load(self.setup_timeout + self.answer_timeout * len(self.answers) + self.deadline)
 
     def as_json(self) -> str:
@@ -99,11 +100,11 @@ class PartResult:
     """The result of a part: the check runner's record, if any, and the student process's messages."""
 
     record: Record | None
-    ending: str  # This is the reason for a missing record, or "".
+    ending: str  # The reason why there is no record, or "".
     # The cells' error messages may be false, so they are only used as feedback.
     messages: tuple[dict[str, str], ...] = ()
     took: float = 0.0  # The part took this time in s.
-    # The value is true if the sandbox worker itself failed; the result of the answer is then unknown.
+    # The value is true if the sandbox worker itself failed. The result of the answer is then unknown.
     lost: bool = False
 
     @property

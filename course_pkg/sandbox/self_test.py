@@ -9,7 +9,7 @@ from course_pkg.sandbox.linux import confinement, namespaces
 
 
 def main() -> None:
-    """Create the sandbox of one part with a process that only reports that it is running."""
+    """Create the sandbox of one part; a process in it only reports that it is running."""
     try:
         namespaces.become_root()
         namespaces.unshare(namespaces.MOUNT | namespaces.NETWORK | namespaces.IPC | namespaces.HOSTNAME)

@@ -1,6 +1,6 @@
 """The student's process of one part: it runs the cells as a kernel does, and then runs the check client.
 
-The student's code controls this process, so messages of this process earn no points.
+The student's code controls this process, so no points depend on messages of this process.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The supervisor of one part: it creates the network and folders, and starts and ends all processes."""
+"""The supervisor of one part. It creates the network and the folders, and starts and ends all processes."""
 
 from __future__ import annotations
 
@@ -29,10 +29,9 @@ MASTER_TIMEOUT = 30.0  # The master has to start within this time in s; it takes
 CLEAR_TIMEOUT = 5.0  # All processes of a part have to end within this time in s.
 MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the memory.
 # These lines of /proc/PID/status and /proc/PID/smaps_rollup contain the memory of a process in KiB, without
-# mapped files (proc(5)).
-# If processes share a memory page, the page counts for each of these processes.
+# mapped files (proc(5)). A memory page that several processes share counts for each of these processes.
 QUICK = ("RssAnon:", "RssShmem:")
-# In this sum, a shared page counts only once: its size is divided among the processes that share the page.
+# In this sum, a shared page counts only once: each process counts an equal part of its size.
 EXACT = ("Pss_Anon:", "Pss_Shmem:")
 OPEN = 4096  # No process of a sandbox has a file descriptor of this number or above.
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
@@ -70,8 +69,8 @@ def supervise(
         wait_until(lambda: _listens(port), MASTER_TIMEOUT, 0.002)
         student = _start(lambda: _run_student(job, shell, messages, isolation))
         _start(lambda: _run_commands(commands, isolation))
-        # The check runner notices the end of the command runner only if no other process has this socket
-        # open.
+        # Only if no other process has this socket open, the check runner notices the end of the command
+        # runner.
         os.close(commands)
         descriptors = network.fileno(), listener.fileno()
         send(fork_server, {"supervisor": os.getpid(), "port": port, "student": student}, descriptors)
@@ -172,7 +171,7 @@ def _confine(work: Callable[[], None], isolation: Isolation, uid: int, *, may_wr
 
 
 def _close_all_but(descriptor: int) -> None:
-    """Close all files except `descriptor` and 0 to 2, because the sandboxed process must not inherit them."""
+    """Close all files except `descriptor` and 0 to 2: the sandboxed process must not inherit them."""
     os.closerange(3, descriptor)
     os.closerange(descriptor + 1, OPEN)
 
@@ -195,11 +194,11 @@ def _watch(student: int, folder: str, isolation: Isolation) -> int:
 
 
 def too_much_memory_below(ancestor: int, limit: int) -> bool:
-    """Return whether the descendants of a process together use more memory than `limit` (bytes).
+    """Return whether all descendants of a process together use more memory than `limit` (bytes).
 
     Forked processes share most of their memory. A sum that counts shared memory for each process is fast to
-    compute, but it may be several times too large. The exact sum takes longer, so it is computed only if the
-    fast sum is above the limit.
+    compute. It may be several times too large. The exact sum takes longer, so it is computed only after the
+    fast sum has exceeded the limit.
     """
     processes = descendants(ancestor)
     if sum(_memory(pid, "status", QUICK) for pid in processes) <= limit:
@@ -211,7 +210,7 @@ def _exact_memory(pid: int) -> int:
     try:
         return _memory(pid, "smaps_rollup", EXACT)
     except PermissionError:
-        # The exact memory of a process cannot be read if the process is protected from other processes.
+        # The exact memory of a protected process cannot be read, so use the fast value.
         return _memory(pid, "status", QUICK)
 
 

@@ -28,7 +28,7 @@ START_TIMEOUT = 60.0  # The fork server has to import its modules within this ti
 PLACE_TIMEOUT = 15.0  # A supervisor has to start its processes within this time in s.
 END_TIMEOUT = 8.0  # A supervisor has to end all its descendants within this time in s.
 KILLED_TIMEOUT = 30.0  # The fork server has to report a killed supervisor within this time in s.
-# After the end of the student's process, a check runner has to finish within this time in s.
+# A check runner has to finish within this time in s after the end of the student's process.
 VERDICT_TIMEOUT = 3.0
 # This is the maximum number of bytes for one read, and for all messages of the student's process together.
 CHUNK = 65536
@@ -37,7 +37,7 @@ LIMITS = {
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
     supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
 }
-# When a supervisor ends the processes of a part because of a limit, the check may report one of these
+# A supervisor ends the processes of a part when it exceeds a limit. The check may then report one of these
 # verdicts only because the processes have ended.
 STOPPED = (Verdict.FAILED, Verdict.UNDECIDED)
 ENDINGS = {
@@ -55,7 +55,7 @@ def main() -> None:
         namespaces.become_root()
     if kind is Kind.USERS:
         os.umask(0o022)
-        reserved, _lock = users.reserve()  # The users are reserved until this process ends.
+        reserved, _lock = users.reserve()  # No other worker can use these users until this process ends.
         isolation = Isolation(kind, reserved)
     ours, theirs = pair()
     child = fork(lambda: _serve_forks(theirs, ours, private, isolation))
@@ -79,7 +79,7 @@ def _serve_forks(theirs: socket.socket, ours: socket.socket, private: str, isola
 
 
 def _import_checks(private: str) -> None:
-    """Import every check, so that a forked check runner needs no imports.
+    """Import every check; forked check runners then need no imports.
 
     The fork server was forked earlier, so its memory does not contain the checks.
     """
@@ -116,8 +116,8 @@ class Session:
                 network, port, listener = self._placed(stack)
                 record, ending = self._checked(network, port, listener, commands)
             except TimeoutError:
-                # The worker must not be used again: a later message of the fork server may belong to this job
-                # or to the next job.
+                # Do not use this worker again: a later message of the fork server may belong to this job or
+                # to the next job.
                 raise
             except (EOFError, OSError) as error:
                 ending = f"{ending} ({error})" if str(error) else ending
@@ -156,7 +156,7 @@ class Session:
     ) -> tuple[Record | None, str]:
         """Wait for the check client, and run the check.
 
-        Return the record, or the reason for a missing record.
+        Return the record, or the reason why there is no record.
         """
         if listener not in self._wait([listener]):
             return None, self._reason()
@@ -232,8 +232,8 @@ class Session:
                 receive(self._fork_server, END_TIMEOUT)
             except TimeoutError:
                 end([self._supervisor])
-                # Receive the message about the end of the supervisor here, because the next job must not
-                # receive it. If the message does not arrive, this worker is not used any more.
+                # Receive the message about the end of the supervisor here; the next job must not receive it.
+                # If the message does not arrive, this worker is not used any more.
                 receive(self._fork_server, KILLED_TIMEOUT)
 
 

@@ -19,8 +19,8 @@ from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
 
 START_TIMEOUT = 90.0  # The worker has to start within this time in s; without load, the start takes 2 s.
-# Each part has its own time limit. If the result is still missing after the limit and this additional time in
-# s, the worker itself has failed.
+# Each part has its own time limit. The worker itself has failed if there is no result after this limit plus
+# `SLACK` s.
 SLACK = 45.0
 
 
@@ -29,10 +29,10 @@ class SandboxWorker:
 
     After a WorkerFailed error, the next call of `run` starts the worker again.
 
-    The processes in the sandbox end together with the thread that made the first call of `run`. `private` is
-    the folder with an instructor's private exercises; no submission can read this folder. If `sandboxed` is
-    false, there is no sandbox. If `users` is true, the sandbox consists of other users of the machine (see
-    users.py).
+    The processes in the sandbox end with the thread that made the first call of `run`. `private` is the
+    folder with an instructor's private exercises; no submission can read this folder. If `sandboxed` is
+    false, student code runs without a sandbox. If `users` is true, student code runs as other users of the
+    machine (see users.py).
     """
 
     def __init__(self, *, sandboxed: bool = True, users: bool = False, private: str = "") -> None:
@@ -62,7 +62,7 @@ class SandboxWorker:
         return result_from(self._line(job.limit + SLACK))
 
     def kill(self) -> None:
-        """Kill the worker, so that the call of `run` in another thread raises WorkerFailed."""
+        """Kill the worker; the call of `run` in another thread then raises WorkerFailed."""
         if process := self._process:
             process.kill()
 

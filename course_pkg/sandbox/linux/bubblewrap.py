@@ -1,4 +1,4 @@
-"""The outer sandbox: the files of the machine that a submission and its processes can see.
+"""The outer sandbox decides which files of the machine a submission and its processes can see.
 
 bubblewrap (https://github.com/containers/bubblewrap) limits the visible files. If root starts the sandbox,
 the command runs as an unprivileged user. For all other users, the machine must allow unprivileged user
@@ -19,7 +19,7 @@ from course_pkg.errors import SandboxUnavailable
 from course_pkg.sandbox.linux.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
 from course_pkg.setup import PACKAGE_PARTS, Places, environment
 
-# If root starts the sandbox, the command runs with this uid and gid; this user owns no files.
+# If root starts the sandbox, the command runs with this uid and gid. The user with this uid owns no files.
 NOBODY = 65534
 READABLE = (
     "/usr",
@@ -39,8 +39,8 @@ INVENTED = {
     "/etc/nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
 }
 WRITABLE = 512 << 20  # The trusted processes can write at most this number of bytes.
-# The inner sandboxes can mount their own /proc only if no mount covers a folder of the outer sandbox's /proc.
-# This command therefore mounts a new /proc, and then drops all privileges.
+# The kernel lets an inner sandbox mount its own /proc only if no mount covers a folder in the outer sandbox's
+# /proc. This command therefore mounts a new /proc, and then drops all privileges.
 AS_ROOT = (
     "mount -t proc proc /proc && exec setpriv --reuid {0} --regid {0} --clear-groups --inh-caps=-all "
     '--bounding-set=-all --no-new-privs -- "$0" "$@"'
@@ -48,7 +48,7 @@ AS_ROOT = (
 
 
 def refusal() -> str:
-    """If this machine cannot create a sandbox, return the reason and what the user can do; else return ""."""
+    """Return why this machine cannot create a sandbox, and what the user can do; return "" if it can."""
     if sys.platform != "linux" or not (found := shutil.which("bwrap")):
         return (
             "bubblewrap is not installed (on Debian and Ubuntu: apt-get install bubblewrap python3-seccomp)."
@@ -81,7 +81,7 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
     """Return the command that runs the command `command` in a sandbox.
 
     Start the returned command with an empty environment. Inside the sandbox, only the course (without
-    solutions and tests), ROS, and the paths in `readable` are visible, and all of them are read-only.
+    solutions and tests), ROS, and the paths in `readable` are visible. All of them are read-only.
     """
     root = os.geteuid() == 0
     prepared = ["sh", "-c", AS_ROOT.format(NOBODY)] if root else []
@@ -101,7 +101,7 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 
 
 def _root_capabilities() -> Iterator[str]:
-    """Yield the options that allow root to mount /proc, and to become the user nobody afterwards.
+    """Yield the options that allow root to mount /proc and then to become the user nobody.
 
     If bwrap mounted the new /proc, bwrap would also mount other folders over parts of /proc. The kernel would
     then not allow the inner sandboxes to mount their own /proc.
@@ -158,8 +158,8 @@ def _course() -> Iterator[Path]:
 def clean_environment() -> dict[str, str]:
     """Return the course's environment, without variables of the user who grades.
 
-    If glibc uses more than one memory arena, it reserves about 64 MiB of address space for each thread. A
-    student's code could then start only about ten threads within the limit MEMORY.
+    If glibc used more than one memory arena, it would reserve about 64 MiB of address space for each thread.
+    With such reservations, a student's code could start only about ten threads within the limit MEMORY.
     """
     known = environment.merged(Places.of(), {})
     known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")
@@ -167,7 +167,7 @@ def clean_environment() -> dict[str, str]:
 
 
 def _invented(path: str, text: str) -> Path:
-    """Return a file that contains the text, for all sandboxes of this checkout."""
+    """Return a file that contains the text; all sandboxes of this checkout use the file."""
     file = Places.of().own_data / "sandbox" / Path(path).name
     if not file.exists() or file.read_text("utf-8") != text:
         file.parent.mkdir(parents=True, exist_ok=True)

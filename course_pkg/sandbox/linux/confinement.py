@@ -20,7 +20,7 @@ CHECK_RUNNER = 2 << 30
 TOGETHER = 768 << 20  # The total memory of all processes of a part has this limit in bytes.
 # At most this number of processes and threads may run; a launch file with three nodes starts about 60.
 PROCESSES = 200
-# The total size of all files in each of the folders /student and /tmp has this limit in bytes.
+# The files in each of the folders /student and /tmp have this total limit in bytes.
 DISK = 128 << 20
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
 # The visible paths in /tmp and /dev/shm are also mounted in the folder `SHADOW`; the variable `SHADOWED`
@@ -28,7 +28,7 @@ MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
 SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"
 FILES = 20_000  # Each of the folders /student and /tmp may contain at most this number of files.
 FILE = 64 << 20  # A file has at most this size in bytes.
-# At most this number of files and sockets may be open, which also limits the memory for socket buffers.
+# At most this number of files and sockets may be open. This also limits the memory of socket buffers.
 OPEN = 256
 PROCESSOR = 120  # A process has at most this CPU time in s.
 
@@ -52,8 +52,8 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
     """Run a function without privileges, in new user and process namespaces, and with new folders in memory.
 
     Call this function in a forked process that is root in its user namespace. This function never returns:
-    after the end of `work`, the function ends all processes that `work` started. If `may_write` is false,
-    /student is read-only.
+    when `work` ends, the function ends all processes that `work` started. If `may_write` is false, /student
+    is read-only.
     """
     namespaces.die_with_parent()
     namespaces.unshare(
@@ -84,7 +84,7 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
 
 
 def innermost(outer: int) -> int:
-    """Return the id of the process that runs `work`, if the process `outer` has called run_confined()."""
+    """Return the id of the process that runs `work`; `outer` is the process that called run_confined()."""
     with suppress(psutil.NoSuchProcess, ValueError):  # min() raises ValueError if a process has ended.
         for _ in range(2):  # run_confined() forks twice.
             outer = min(psutil.Process(outer).children(), key=psutil.Process.create_time).pid
@@ -137,7 +137,7 @@ def write_filter(path: Path) -> None:
 
 
 def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
-    """Return a filter that refuses system calls that attacks have used and that no exercise needs."""
+    """Return a filter that refuses system calls that attacks use and that no exercise needs."""
     import errno
 
     import seccomp
@@ -148,7 +148,7 @@ def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
         rules.add_rule(refused, call)
     users = seccomp.Arg(0, seccomp.MASKED_EQ, namespaces.USER, namespaces.USER)
     rules.add_rule(refused, "clone", users)
-    # A filter cannot read the flags of clone3, so refuse every call of clone3.
+    # A filter cannot read the flags of clone3, so this rule refuses every call of clone3.
     rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")
     for request in (TIOCSTI, TIOCLINUX):
         rules.add_rule(refused, "ioctl", seccomp.Arg(1, seccomp.MASKED_EQ, 0xFFFFFFFF, request))

@@ -1,7 +1,7 @@
 """Linux system calls for a sandbox, called from Python: namespaces(7), mount(2), capabilities(7).
 
-Each function changes the calling process. This process must have only one thread. A function raises OSError
-with the name of the system call if the kernel refuses the call. The comments name the kernel headers that
+Each function changes the calling process. This process must have only one thread. If the kernel refuses the
+call, the function raises OSError with the name of the system call. The comments name the kernel headers that
 define the constants.
 """
 
@@ -41,7 +41,7 @@ _libc = ctypes.CDLL(None, use_errno=True)
 def unshare(kinds: int) -> None:
     """Create and enter namespaces of these `kinds`.
 
-    Only processes that are forked later are in a new PROCESS namespace.
+    A new PROCESS namespace contains only processes that are forked later.
     """
     _done(_libc.unshare(ctypes.c_int(kinds)), "unshare")
 
@@ -132,7 +132,8 @@ def adopt_orphans() -> None:
 def be_unreadable() -> None:
     """Prevent other processes of this user from reading this process.
 
-    Without this setting, another process of this user could use ptrace, /proc/PID/mem and /proc/PID/fd.
+    Without this setting, another process of this user could read it with ptrace, /proc/PID/mem and
+    /proc/PID/fd.
     """
     _done(_libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0), "prctl")
 

@@ -1,9 +1,9 @@
 """A weaker sandbox for machines that forbid namespaces: other users of the machine, and limits.
 
-For example, a container of Gradescope forbids namespaces, and the grader in it is root. The processes of a
-part run as users that own no other files. The student's code therefore cannot read the solutions, write the
-grades, or send signals to the grader. Without namespaces, the student's code can reach the network, and it
-can see the names of processes.
+For example, Gradescope's containers forbid namespaces; in these containers, the grader runs as root. The
+processes of a part run as users who own no other files. The student's code therefore cannot read the
+solutions, write the grades, or send signals to the grader. Without namespaces, the student's code can reach
+the network, and it can see the names of processes.
 """
 
 from __future__ import annotations
@@ -85,8 +85,8 @@ def run_confined(work: Callable[[], None], uid: int) -> NoReturn:
 def make_folder(users: Users) -> str:
     """Make the folders of a part, and return the student's work folder.
 
-    The folder `commands` next to the work folder belongs to the command runner, which also stores its
-    temporary files there.
+    The folder `commands` next to the work folder belongs to the command runner. It also contains the command
+    runner's temporary files.
     """
     base = Path(tempfile.mkdtemp(prefix="course-grading-"))
     base.chmod(0o755)
@@ -111,8 +111,8 @@ def hand_over(folder: str, uid: int) -> None:
 def clear(users: Users) -> None:
     """Kill all processes that run a student's code, and delete the users' files in shared folders.
 
-    Orphaned processes are killed, too. The check runner is not killed, because it may not
-    have written its record yet. Raises TimeoutError if some processes do not end.
+    Orphaned processes are killed, too. This function does not kill the check runner, which may not have
+    written its record yet. Raises TimeoutError if some processes do not end.
     """
     deadline = Deadline(KILL_TIMEOUT)
     for uid in (users.student, users.commands):
@@ -126,10 +126,10 @@ def clear(users: Users) -> None:
 
 
 def _kill_all(uid: int, killer: int) -> None:
-    """Kill all processes of a user in one system call, so that no process can fork before it is killed.
+    """Kill all processes of a user in one system call; then no process can fork before its end.
 
-    The killing process has the effective user id `uid`, so it may kill these processes. Its real and saved
-    user ids are `killer`, so these processes cannot send signals to the killing process.
+    The killing process has the effective user id `uid`. It may therefore kill these processes. Its real and
+    saved user ids are `killer`, so these processes cannot send signals to the killing process.
     """
     if not (pid := os.fork()):
         try:
@@ -194,7 +194,7 @@ def _remove(path: str) -> None:
 
 
 def refusal(hidden: Iterable[Path] = ()) -> str:
-    """If this machine cannot run students' code as another user, return the reason; else return "".
+    """Return why this machine cannot run students' code as another user, or "" if it can.
 
     The user who runs students' code must be able to read the course and the environment, but must not be able
     to read the checks, the solutions or the paths in `hidden`.
