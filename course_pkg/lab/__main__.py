@@ -1,8 +1,8 @@
 """Starts the unchanged JupyterLab: `python -m course_pkg.lab OPTION…` is the same as `jupyter lab OPTION…`.
 
-If Node.js is installed, JupyterLab starts half a second faster with this module. When jupyterlab is imported,
-it runs `node` to read the address of the npm registry from Yarn's configuration. Only a build of the front
-end needs this address. Therefore, main() hides `node`, and jupyterlab uses the default address.
+If Node.js is installed, JupyterLab starts half a second faster with this module. During its import,
+jupyterlab runs `node` to read the address of the npm registry from Yarn's configuration. Only a build of the
+front end needs this address. Therefore, main() hides `node`; jupyterlab then uses the default address.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""`course lab`: starts a master and JupyterLab with the course's settings, and ends both before it exits."""
+"""`course lab` starts a master, and JupyterLab with the course's settings. It ends both before it exits."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
     The kernels and terminals are on a graph in a private network, or in the network of this computer if
     `shared` is true. The server is always in the network of this computer.
 
-    Returns 0, or the server's exit status if the server ends by itself. Raises SetupError if JupyterLab
-    cannot open the notebook, PortBusy if it cannot listen at the address, and CourseError if the server does
-    not start.
+    Returns 0, or the server's exit status if the server ends without a signal to this command. Raises
+    SetupError if JupyterLab cannot open the notebook, PortBusy if it cannot listen at the address, and
+    CourseError if the server does not start.
     """
     places = Places.of()
     make_own_files(places)
@@ -64,7 +64,7 @@ def _serve(
     which: Which,
     retries: int | None = None,
 ) -> int:
-    """Run JupyterLab on the port `port`, or on one of the next ports, until a signal arrives.
+    """Run JupyterLab until a signal arrives, on the port `port` or on one of the next ports.
 
     `retries` is the number of next ports to try.
 
@@ -113,7 +113,7 @@ def server_port(ip: str, candidates: Sequence[int]) -> int:
 
 
 class _Stop(BaseException):
-    """A signal that ends this command raises this exception.
+    """A signal to end this command raises this exception.
 
     `except Exception` does not catch this exception.
     """
@@ -140,10 +140,10 @@ def _stopping_on_signals() -> Iterator[None]:
 def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> Iterator[SupervisedProcess]:
     """Run the server during the `with` block.
 
-    After the block, the server, its kernels and its terminals are ended, even if a signal kills this process.
+    After the block, end the server, its kernels and its terminals, even if a signal kills this process.
     """
     folders = {
-        # The server uses only these folders, so it does not read the settings and files of other Jupyter
+        # The server uses only these folders. It does not read the settings and files of other Jupyter
         # installations.
         "JUPYTER_CONFIG_DIR": str(places.own_data / "jupyter" / "config"),
         "JUPYTER_DATA_DIR": str(places.own_data / "jupyter" / "data"),
@@ -175,9 +175,9 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
 def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str, object]:
     """Return settings for JupyterLab; the keys are the names of its traits.
 
-    All installed extensions stay enabled. The settings that are the same for every start are in
-    course_pkg/lab/extension.py. The file browser shows the folder `root`; `checkpoints` and `workspaces` are
-    folders for JupyterLab's checkpoints and workspaces.
+    All installed extensions stay enabled. course_pkg/lab/extension.py contains the settings that are the same
+    for every start. The file browser shows the folder `root`; `checkpoints` and `workspaces` are folders for
+    JupyterLab's checkpoints and workspaces.
     """
     return {
         "ServerApp.root_dir": root,
@@ -194,10 +194,10 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
 
 
 def _short_folder() -> str | None:
-    """Return a folder for temporary files; its path is short enough for a kernel's sockets.
+    """Return a folder for temporary files with a path that is short enough for a kernel's sockets.
 
     The path of a socket is 80 bytes longer than the path of this folder, and Linux allows at most 107 bytes.
-    The result is None if the path of the usual folder is short enough.
+    The result is None if the usual folder has a short enough path.
     """
     return None if len(os.fsencode(tempfile.gettempdir())) <= 27 else "/tmp"  # noqa: S108 -- a folder of mode 700 in it
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from course_pkg.errors import SetupError
 
-# jupyterlab_server's file name for the workspace "default": the name, and the first digits of the name's
-# SHA-256.
+# jupyterlab_server's file name for the workspace "default". It contains the name, and the first digits of the
+# name's SHA-256 sum.
 WORKSPACE = "default-37a8.jupyterlab-workspace"
 
 
@@ -37,9 +37,8 @@ def write_workspace(folder: Path, notebook: str) -> None:
 
     The workspace has one tab for this notebook, and no tabs of an earlier start.
 
-    If JupyterLab restored earlier tabs, it would start a kernel for each of them before the page is usable. A
-    page address with the notebook and `?reset` would have the same effect, but JupyterLab reads the address
-    0.5 s later than the workspace.
+    If JupyterLab restored earlier tabs, it would first start a kernel for each of these tabs. A page address
+    with the notebook and `?reset` would have the same effect, but 0.5 s later than the workspace.
     """
     tab = f"notebook:{notebook}"
     dock = {"type": "tab-area", "currentIndex": 0, "widgets": [tab]}

@@ -1,4 +1,4 @@
-"""Copy the notebooks of a shared installation to a user's own folder, and never overwrite the user's work."""
+"""Copy the notebooks of a shared installation to a user's own folder without overwriting the user's work."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.stamps import digest
 
 FOLDERS = ("notebooks", "figures")
-# The file contains, for each delivered file, the hash of the newest version that the user has received.
+# For each delivered file, this file contains the hash of the newest version that the user has received.
 DELIVERED = "delivered.json"
 
 
 def make_own_files(places: Places) -> None:
-    """Create the user's own folder, or add the new files of an upgrade; in a checkout, do nothing.
+    """Create the user's own folder, or add the new files of an upgrade; do nothing in a checkout.
 
     A file that the user has not changed is replaced with the new version. A file that the user has changed is
-    kept, and a message names the file. A file that the user has deleted is copied again. Raises SetupError if
-    the folder cannot be written.
+    not replaced; a message contains the name of this file. A file that the user has deleted is copied again.
+    Raises SetupError if the folder cannot be written.
     """
     if not places.installed:
         return

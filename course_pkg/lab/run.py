@@ -14,8 +14,8 @@ from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.shell import SHELL
 from course_pkg.ros.process.supervised import SupervisedProcess
 
-# The first plug-in gives each notebook its own master and folder. The second plug-in ignores pictures. With
-# the third plug-in, pytest fails if a check in a notebook did not pass.
+# The first plug-in gives each notebook its own master and folder. The second plug-in ignores pictures. The
+# third plug-in makes pytest fail if a check in a notebook did not pass.
 NBVAL_PLUGINS = (
     "course_pkg.authoring.private_notebook",
     "course_pkg.authoring.nbval_figures",
@@ -58,7 +58,7 @@ def _with_plugins(command: Sequence[str]) -> list[str]:
 
 @contextmanager
 def _signals_held_back() -> Iterator[None]:
-    """Block signals, so that only sigwaitinfo() receives them.
+    """Block signals; only sigwaitinfo() then receives them.
 
     The command starts while the signals are blocked, so no signal is lost.
     """
@@ -76,8 +76,8 @@ def _wait(process: SupervisedProcess) -> int:
     """
     while (status := process.returncode) is None:
         received = signal.sigwaitinfo(AWAITED)
-        # If a signal comes from the terminal, the pid of its sender is 0. The terminal sends the same signal
-        # to the command, so this signal must not be forwarded.
+        # If a signal comes from the terminal, the pid of its sender is 0. The terminal also sends the signal
+        # to the command, so this process must not forward it.
         if received.si_signo != signal.SIGCHLD and received.si_pid:
             process.signal(received.si_signo)
     return status

@@ -21,7 +21,7 @@ KEPT_LINES = 12  # number of lines of the server's log in an error message
 
 
 class PortTaken(PortBusy):
-    """Another program took the port after JupyterLab had chosen it, and before JupyterLab listened."""
+    """Another program took the port between JupyterLab's choice of the port and its first listen call."""
 
 
 class Address(NamedTuple):
@@ -55,7 +55,7 @@ def await_server(server: SupervisedProcess, scratch: Path) -> Address:
     info = scratch / "runtime" / f"jpserver-{server.pid}.json"
     chosen = 0
     while True:
-        # The server can write the file and end between two rounds, so read the file also after the end.
+        # The server can write the file and end between two rounds, so read the file again after the end.
         ended = server.wait(LOOK)
         with suppress(OSError, ValueError, HTTPException):
             seen = json.loads(info.read_text())
@@ -72,17 +72,17 @@ def await_server(server: SupervisedProcess, scratch: Path) -> Address:
 
 
 def _is_at(address: Address) -> bool:
-    """Return whether the server at this address accepts the token; the server of another user refuses it."""
+    """Return whether the server at this address accepts the token; a server of another user refuses it."""
     with closing(HTTPConnection(address.base.netloc, timeout=READY)) as server:
         server.request("GET", f"{address.base.path}api/status", headers=address.headers)
         return server.getresponse().status == OK
 
 
 def start_kernel(address: Address, notebook: str) -> None:
-    """Start the notebook's kernel while the page loads, so that the page finds a running kernel.
+    """Start the notebook's kernel while the page loads; the page then finds a running kernel.
 
-    If the start of the kernel fails, the page starts the kernel itself. If the page cannot start the kernel
-    either, the page shows the reason.
+    If the start of the kernel fails, the page starts the kernel itself. If this also fails, the page shows
+    the reason.
     """
     if not notebook:
         return

@@ -1,4 +1,4 @@
-"""How a command joins the running graph or starts a new graph, and leaves the graph at the end."""
+"""A command joins the running graph or starts a new graph, and leaves the graph at the end."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class Graph:
 
     `uri` is the address of the master. `files` are the file descriptors of the private network's namespaces.
     If `files` is empty, the graph uses the network of this machine. In this case, `reason` says why there is
-    no private network; it is "" if the user asked for the network of this machine. After wait_for_master(),
-    `outgoing` is true if programs in the private network can connect to other computers.
+    no private network. If the user asked for the network of this machine, `reason` is "". After
+    wait_for_master(), `outgoing` says whether programs in the private network can connect to other computers.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class Graph:
         self.outgoing = facts["outgoing"]
 
     def leave(self) -> None:
-        """Leave the graph; if no other command uses it, wait until the graph's processes have ended."""
+        """Leave the graph. If no other command uses it, wait until its processes have ended."""
         received = b""
         with self._connection, suppress(OSError):
             self._connection.shutdown(socket.SHUT_WR)
@@ -82,7 +82,8 @@ class Graph:
             # The holder continues to run for other commands, so this process does not wait for it.
             self._holder.returncode = 0
         if not received.endswith(LAST) and (left := _connected(self._path)):
-            # A connection means that the holder still runs. If the holder has been killed, _connected()
+            # If there is a connection, the holder still runs. After the holder was killed, _connected()
+            # removes the holder's socket and returns None. If the holder has been killed, _connected()
             # removes its socket and returns None.
             left.close()
         for file in self.files:
@@ -127,7 +128,7 @@ def join_or_start(which: Which, folder: Path) -> Graph:
 def _running(folder: Path) -> Graph | None:
     """Return the newest running graph, and remove the sockets of graphs that have ended.
 
-    Another computer may use the same home folder, so only the sockets of this computer are used.
+    Another computer may use the same home folder. Therefore, only the sockets of this computer are used.
     """
     sockets = sorted(folder.glob(f"{platform.node()}.*"), key=lambda path: path.stat().st_mtime, reverse=True)
     for path in sockets:
@@ -139,7 +140,7 @@ def _running(folder: Path) -> Graph | None:
 
 
 def _connected(path: Path) -> socket.socket | None:
-    """Return a connection to the holder process whose socket is at the path `path`.
+    """Return a connection to the holder process that has the socket `path`.
 
     If the holder has ended, remove the socket and return None.
     """

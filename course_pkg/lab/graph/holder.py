@@ -1,18 +1,18 @@
-"""The process that owns a graph: its private network, its master, and the node /rosout.
+"""This process owns a graph: its private network, its master, and the node /rosout.
 
 usage: holder.py LISTENER SOCKET KIND
 
 LISTENER is the descriptor of a listening Unix socket, SOCKET is its path, and KIND is "private" or "shared".
 `graph.py` runs this file as a script. Each command that uses the graph has a connection to the socket. The
 connection is closed when the command leaves the graph or ends, even by SIGKILL. When the last connection is
-closed, the holder ends the graph. The holder does not have to check process ids, because the operating system
-closes the connections of a process that has ended. If the holder has ended, the operating system refuses new
-connections to its socket.
+closed, the holder ends the graph. The operating system closes the connections of a process that has ended.
+The holder therefore does not have to check process ids. After the end of the holder, the operating system
+refuses new connections to its socket.
 
 To each command, the holder sends a line of JSON together with the file descriptors of the namespaces. The
 holder sends a second line when the master answers, or when the master cannot be started. When a command
-leaves and other commands still use the graph, the holder closes the command's connection at once. When the
-last command leaves, the holder ends the graph, sends `LAST`, and then closes the connection.
+leaves while other commands use the graph, the holder closes the command's connection at once. When the last
+command leaves, the holder ends the graph, sends `LAST`, and then closes the connection.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Holder:
         self._greeting = _line(uri=self._master.uri, reason=reason)
 
     def run(self) -> None:
-        """Serve commands until the last command has left; then end the graph."""
+        """Serve commands until the last command has left the graph, and then end the graph."""
         from course_pkg.errors import CourseError
 
         self._listener.settimeout(FIRST)
@@ -73,10 +73,10 @@ class Holder:
             self._outgoing.end()
         with suppress(OSError):
             self._last.sendall(LAST)
-        # The connection to the last command is closed when this process ends.
+        # When this process ends, the operating system closes the connection to the last command.
 
     def _enter_network(self) -> str:
-        """Enter a new private network; if this machine does not allow private networks, return the reason."""
+        """Enter a new private network; return the reason if this machine does not allow private networks."""
         from course_pkg.lab.graph import network, outgoing
 
         try:
@@ -96,7 +96,7 @@ class Holder:
     def _serve(self, first: socket.socket) -> socket.socket:
         """Accept commands, and close the connection of each command that leaves.
 
-        The connection of the last command is not closed; the method returns this connection.
+        The method does not close the connection of the last command, but returns it.
         """
         with selectors.DefaultSelector() as selector:
             selector.register(self._listener, selectors.EVENT_READ)

@@ -11,7 +11,7 @@ from traitlets import Unicode
 class GraphKernelManager(ServerKernelManager):  # type: ignore[misc]  # The base class has no types.
     """Starts a kernel of any kind with the command `enter`, which executes the kernel in the same process.
 
-    Because `enter` does not start a new process, the server knows the kernel's process id, and can interrupt
+    `enter` does not start a new process. The server therefore knows the kernel's process id and can interrupt
     the kernel.
     """
 

@@ -1,10 +1,9 @@
 """A private network: Linux namespaces, which other processes can enter through file descriptors.
 
-Programs in a private network can connect only to each other. Other users, and other networks of the same
-user, cannot use the ports and abstract sockets of these programs. The user root needs only a network
-namespace. Other users also need a user namespace. In this namespace, users keep their names and file
-permissions, but cannot become another user, so `sudo` does not work. See network_namespaces(7) and
-user_namespaces(7).
+Programs in a private network can connect only to each other. Other users and other private networks of the
+same user cannot use the ports and abstract sockets of these programs. root needs only a network namespace.
+Other users also need a user namespace. In a user namespace, users have their names and file permissions but
+cannot become another user. Therefore, `sudo` does not work. See network_namespaces(7) and user_namespaces(7).
 """
 
 from __future__ import annotations
@@ -26,8 +25,8 @@ KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWOR
 def create() -> list[int]:
     """Create a network namespace, and a user namespace if it is necessary; return their file descriptors.
 
-    The namespaces exist as long as a process uses them or has these file descriptors open. Raises OSError,
-    with the reason, if this machine does not allow them.
+    The namespaces exist while a process uses them or has their file descriptors open. Raises OSError, with
+    the reason, if this machine does not allow them.
     """
     if not shutil.which(ENTER):
         raise OSError(f"{ENTER} is not installed")
@@ -50,7 +49,7 @@ def enter(files: Sequence[int]) -> None:
 
 
 def entering(files: Sequence[int]) -> list[str]:
-    """Return a prefix for a command line; the prefix runs the command in these namespaces.
+    """Return a prefix for a command line; with this prefix, the command runs in these namespaces.
 
     `files` contains file descriptors. The prefix works only while this process keeps them open.
     """
@@ -60,7 +59,7 @@ def entering(files: Sequence[int]) -> list[str]:
 
 
 def _create(kinds: int) -> list[int]:
-    """Create namespaces in a child process, which sends their file descriptors to this process and ends."""
+    """Create namespaces in a child process; it sends their file descriptors to this process and ends."""
     ours, theirs = socket.socketpair()
     with ours, theirs:
         child = os.fork()

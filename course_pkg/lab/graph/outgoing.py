@@ -2,8 +2,8 @@
 
 slirp4netns forwards each connection from the private network as an ordinary connection of the user.
 slirp4netns accepts no connection from outside. slirp4netns does not forward connections to the loopback
-addresses of this computer, because servers of other users listen there. The program pasta could also be used,
-but pasta of Debian 12 cannot open a namespace by a descriptor in /proc.
+addresses of this computer, because servers of other users listen there. The program pasta is an alternative,
+but in Debian 12, pasta cannot open a namespace by a descriptor in /proc.
 """
 
 from __future__ import annotations

@@ -14,9 +14,9 @@ def settings_for(graph: Graph | None) -> dict[str, object]:
 
     The keys of the result are the names of Jupyter's traits.
 
-    The server and a kernel communicate through sockets that are files (transport "ipc"). If the graph has a
-    private network, the server is outside this network, so the server cannot use the kernel's TCP ports.
-    In the network of the machine, another program could take a TCP port before the kernel opens the port.
+    The server and a kernel communicate through sockets that are files (transport "ipc"). The server is
+    outside a graph's private network and cannot use the TCP ports of a kernel inside. In the network of the
+    machine, another program could take a kernel's TCP port before the kernel opens it.
     """
     if not graph or not graph.files:
         return {"KernelManager.transport": "ipc"}
