@@ -1,4 +1,4 @@
-"""Compute the rate of a topic's messages, and store recent values of a field, in limited memory. The memory is limited."""
+"""Compute the rate of a topic's messages, and store recent values of a field, in limited memory."""
 
 from __future__ import annotations
 
