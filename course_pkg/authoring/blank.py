@@ -129,7 +129,7 @@ class _Cell:
         return isinstance(called, ast.Name) and called.id in self._defined
 
     def _end_of_kept(self, node: Function) -> int:
-        """Return the position after the signature and the docstring; a comment after these is also kept."""
+        """Return the position after the signature, the docstring, and a comment that follows them."""
         documented = ast.get_docstring(node, clean=False) is not None
         end = self._end(node.body[0]) if documented else self._end_of_signature(node)
         rest = self.data[end:].split(b"\n", 1)[0]
@@ -203,8 +203,8 @@ def _dots(target: ast.expr) -> str:
 def _parsed(source: str) -> tuple[str, ast.Module]:
     """Parse the text `source`; return the text that was parsed, and its syntax tree.
 
-    If `source` is not valid Python, each part that only IPython understands is first replaced by a name of
-    the same length. Raises AuthoringError if this text is not valid Python either.
+    If `source` is not valid Python, first replace each part that only IPython understands with a name of the
+    same length. Raises AuthoringError if the text after these replacements is not valid Python.
     """
     try:
         return source, ast.parse(source)

@@ -1,4 +1,6 @@
-"""The cells of a notebook, and the course's keys in their metadata. No other module uses these keys.
+"""Reads the cells of a notebook, and the course's keys in their metadata.
+
+No other module reads or writes these keys.
 
 In the metadata of an exercise cell, `course.exercise` is the id of the part, such as "05.1", and
 `course.points` is the number of points. In the metadata of a check cell, `course.check` is the id of the
@@ -21,11 +23,11 @@ class CourseMetadata(TypedDict, total=False):
 
 
 class CellMetadata(TypedDict, total=False):
-    """The keys of a cell's metadata that the course reads or writes."""
+    """The keys of a cell's metadata that the course uses."""
 
     course: CourseMetadata
     tags: list[str]
-    # `recording` is True for a cell that the build of the site adds to a notebook in order to record panels.
+    # `recording` is True for a cell that the site build adds to a notebook to record panels.
     recording: bool
 
 

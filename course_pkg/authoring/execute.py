@@ -24,10 +24,10 @@ from course_pkg.errors import AuthoringError
 from course_pkg.ros.process.supervised import temporary_folder
 from course_pkg.setup.progress import Progress
 
-CELL_TIMEOUT = 120  # A cell is stopped after this time in s, because a reader should not wait longer.
-# Each core runs PER_CORE notebooks at the same time, because a notebook mostly waits for nodes and responses.
+CELL_TIMEOUT = 120  # A cell is stopped after this time in s; a reader should not wait longer.
+# Each core runs PER_CORE notebooks at the same time; a notebook mostly waits for nodes and responses.
 PER_CORE = 3
-A_CELL = 2.0  # To estimate the running time of a notebook, add this time in s for each cell.
+A_CELL = 2.0  # The estimated running time of a notebook contains this time in s for each cell.
 
 Finished = Callable[[str, Notebook], None]
 
@@ -42,8 +42,8 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 
     For example, `chapters` is ["05"].
 
-    If a solution stops before its last cell, or if one of its checks does not pass, the file of this solution
-    does not change. When all solutions have run, the function raises AuthoringError with all errors and
+    The file of a solution does not change if the solution stops before its last cell or one of its checks
+    does not pass. When all solutions have run, the function raises AuthoringError with all errors and
     reports.
     """
     paths = {path.stem: path for path in NotebookStore(root).solutions(chapters)}
@@ -64,8 +64,8 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
     """Run all notebooks, several at the same time; the keys of `notebooks` are the notebooks' names.
 
-    Call the function `finished` with the name and the outputs of each notebook that ran to its last cell.
-    Return a dict with the error of each notebook that stopped earlier; the keys are the notebooks' names. A
+    Call the function `finished` for each notebook that ran to its last cell, with the notebook's name and
+    outputs. Return the errors of the notebooks that stopped earlier; the keys are the notebooks' names. A
     KeyboardInterrupt ends all kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
@@ -104,9 +104,9 @@ def _about_check(name: str, check: str, report: str) -> str:
 
 
 def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
-    """Return the names sorted by estimated time, with the longest time first.
+    """Return the names, sorted by estimated time; the longest time comes first.
 
-    If the longest notebook started last, the run of all notebooks would take longer.
+    A late start of the longest notebook would delay the end of the whole run.
 
     The estimate grows with the number of a notebook's cells and with the deadlines of its checks.
     """
@@ -147,8 +147,8 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
     """Yield an empty folder for one notebook, and an environment without the state of earlier notebooks.
 
     Each notebook has separate folders for temporary files, results and logs, because several notebooks can
-    run at the same time. The environment names no master, because the first cell of a notebook starts a
-    private master.
+    run at the same time. The environment does not contain the address of a master, because the first cell of
+    a notebook starts a private master.
     """
     with temporary_folder("course-notebook-") as folder:
         work, temporary = folder / "work", folder / "tmp"

@@ -1,4 +1,4 @@
-"""Finds the problems of a solution notebook; each message names the notebook and the cell."""
+"""Finds the problems of a solution notebook; each message contains the names of the notebook and the cell."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _first(source: str) -> str:
 
 
 def _errors(notebook: Notebook) -> Iterator[tuple[str, str]]:
-    """Yield an error if a cell without the tag `raises-exception` shows an error."""
+    """Yield an error for each cell that shows an error but has no tag `raises-exception`."""
     for cell in code_cells(notebook):
         for output in cell["outputs"]:
             if output["output_type"] == "error" and not may_raise(cell):

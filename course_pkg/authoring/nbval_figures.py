@@ -1,7 +1,6 @@
 """A pytest plug-in: nbval ignores the SVG image in an output, but compares the text of the output.
 
-A figure shows measured times, so its SVG differs in every run. Without this plug-in, nbval ignores only PNG
-and JPEG images.
+A figure shows measured times, so its SVG differs in every run. nbval itself ignores only PNG and JPEG images.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Removes from a notebook the data that differ between two runs, or between JupyterLab and other front ends.
+"""Removes the data that differ between two runs of a notebook, or between JupyterLab and other front ends.
 
-Printed addresses, ports, times and process ids are not removed, because they are content of the chapter.
+Printed addresses, ports, times and process ids are content of the chapter, so they are not removed.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ METADATA: NotebookMetadata = {
 
 
 def tidy(notebook: Notebook) -> None:
-    """Normalise the notebook; `notebook` itself is changed. A second call has no effect."""
+    """Normalise the notebook itself, not a copy. A second call has no effect."""
     notebook["nbformat"], notebook["nbformat_minor"] = 4, 5
     title = notebook["metadata"].get("title")
     notebook["metadata"] = {**METADATA, "title": title} if title else {**METADATA}
@@ -43,7 +43,7 @@ def tidy(notebook: Notebook) -> None:
 
 
 def strip(notebook: Notebook) -> None:
-    """Remove every output and every execution count; `notebook` itself is changed."""
+    """Remove every output and every execution count from the notebook itself, not from a copy."""
     for cell in code_cells(notebook):
         cell["outputs"], cell["execution_count"] = [], None
 
@@ -95,8 +95,8 @@ def _number(cell: Cell, number: int) -> None:
 
 def _output(output: Output) -> Output:
     if output["output_type"] == "error" and output["traceback"][:1] != [HEADER]:
-        # IPython's traceback contains local paths, so it is removed. A traceback of the course contains only
-        # lines of cells, so it is kept.
+        # IPython's traceback contains local paths, so remove it. A traceback of the course contains only
+        # lines of cells, so do not remove it.
         output["traceback"] = [f"{output['ename']}: {output['evalue']}"]
     if "data" in output:
         output["data"] = {kind: data for kind, data in output["data"].items() if kind != VIEW}

@@ -51,15 +51,15 @@ class NotebookStore:
         return [path for path in derived if path.name not in names]
 
     def problems(self) -> list[str]:
-        """Return the problems of all solutions; each message names the notebook and the cell."""
+        """Return the problems of all solutions; each message contains the notebook's name and the cell."""
         return [text for path in self.solutions() for text in problems(path.stem, read(path))]
 
 
 def sync(*, check: bool = False, root: Path | None = None) -> int:
     """Normalise the solutions, derive the students' notebooks from the solutions, and return 0.
 
-    If `check` is True, nothing is written, and the function raises AuthoringError with a list of the outdated
-    files. If a solution has problems, the function raises AuthoringError with a list of all problems.
+    If `check` is True, write nothing, and raise AuthoringError with a list of the outdated files. Raises
+    AuthoringError with a list of all problems if a solution has problems.
     """
     store = NotebookStore(root)
     stale, orphans = list(store.stale()), store.orphans()

@@ -12,8 +12,8 @@ from course_pkg.panels.stills import STILLS
 from course_pkg.types.fields import Plain
 
 SVG = "image/svg+xml"
-# The key MADE_BY is in the metadata of each picture with measured times; its value is a digest of the code
-# that made the picture.
+# Each picture with measured times has the key MADE_BY in its metadata. The value is a digest of the code that
+# made the picture.
 MADE_BY = "code"
 
 
@@ -30,12 +30,13 @@ class _Stored(NamedTuple):
 
 
 def add_pictures(executed: Notebook, stored: Notebook) -> None:
-    """Add a still picture to each panel of the notebook `executed`; this notebook itself is changed.
+    """Add a still picture to each panel of the notebook `executed` itself, not of a copy.
 
-    The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
-    show a recording, contain measured times, so they differ in each run. Such a picture depends on the code
-    of the cells up to its cell, on the drawing code, and on the output's data in other MIME types. If none of
-    these has changed, the function keeps the picture from the notebook `stored`.
+    The metadata of `executed` must still contain the states of the panels. Plots contain measured times, so
+    they differ in each run. Pictures of panels that show a recording also contain measured times. Such a
+    picture depends on the code of the cells up to its cell, on the drawing code, and on the output's data in
+    other MIME types. If the code and the data have not changed, the function uses the picture from the
+    notebook `stored`.
     """
     panels = SavedPanels(executed)
     before = {cell["id"]: cell for cell in code_cells(stored)}
@@ -60,13 +61,13 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
 def _settle(output: Output, made_by: str, old: list[_Stored]) -> None:
     """Store `made_by`, a digest of the code that made the picture, in the metadata of `output`.
 
-    If an old picture has the same digest, and its output has the same other data, use the old picture.
+    Use an old picture if it has the same digest, and if its output has the same other data.
     """
     output["metadata"].setdefault(SVG, {})[MADE_BY] = made_by
     same = next((each for each in old if each.made_by == made_by and each.others == _others(output)), None)
     if same:
-        # Several outputs of a cell may have the same digest and the same other data, so use each old picture
-        # only once.
+        # Several outputs of a cell may have the same digest and the same other data. Therefore, use each old
+        # picture only once.
         old.remove(same)
         output["data"][SVG] = same.picture
 

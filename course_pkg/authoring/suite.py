@@ -58,7 +58,7 @@ def run_suite(arguments: Sequence[str]) -> int:
     """Run all tools and all tests, even if some of them fail; return 0 if all of them pass.
 
     `--changed` runs only the tests that a change since the last successful run can affect. `--slow` runs only
-    the slow tests. All other `arguments` are passed to pytest; with such arguments, no tool runs.
+    the slow tests. pytest gets all other `arguments`; with such arguments, no tool runs.
 
     Raises SetupError if the tools are not installed, for example in a conda environment.
     """

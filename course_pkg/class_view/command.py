@@ -1,4 +1,4 @@
-"""Runs `course class`, either with a file of tokens, or as a service of a JupyterHub."""
+"""Runs `course class` with a file of tokens, or as a service of a JupyterHub."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from course_pkg.errors import ClassViewError
 from course_pkg.state import locked, state_folder
 
 SECRET = "secret"  # noqa: S105 -- the name of the file with the secret
-LOCK = "service"  # The running service locks this folder, which is inside the data folder.
+LOCK = "service"  # The running service locks this folder inside the data folder.
 
 
 def serve_class(options: SimpleNamespace) -> int:
@@ -129,7 +129,7 @@ async def _serve(
 
 
 def _address(options: SimpleNamespace) -> tuple[str, int]:
-    """Return the address and port of the service: those from the hub, or else those in the options."""
+    """Return the address and port of the service, from the hub or from the options."""
     if url := os.environ.get("JUPYTERHUB_SERVICE_URL", ""):
         parts = urlsplit(url)
         return parts.hostname or options.ip, parts.port or options.port
@@ -150,7 +150,7 @@ def _instructions(url: str, teacher_token: str, tokens: Tokens, ip: str) -> str:
 
 
 def _secret(data: Path) -> str:
-    """Return the secret, which signs cookies; a file in the folder `data` stores it between restarts."""
+    """Return the secret that signs cookies; a file in the folder `data` stores it between restarts."""
     path = data / SECRET
     if not path.exists():
         write_privately(path, secrets.token_hex(32))

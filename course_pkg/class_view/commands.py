@@ -69,7 +69,7 @@ def _days(text: str) -> float:
     return number
 
 
-# If an argument is wrong, argparse shows the name of the function that parses it.
+# For a wrong argument, argparse shows the name of the function that parses it.
 _positive.__name__, _days.__name__ = "number from 1 to 1000", "number of days"
 
 COMMANDS = {

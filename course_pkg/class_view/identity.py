@@ -101,7 +101,7 @@ class HubIdentity:
         return user.get("kind") == "user" and bool(held & {*self.service.scopes, "access:services"})
 
     def login_url(self, state: str) -> str:
-        """Return the hub's address for a login; after the login, the hub redirects the user to the page."""
+        """Return the hub's address for a login. After the login, the hub redirects the user to the page."""
         query = {"client_id": self.service.client, "redirect_uri": self._redirect, "response_type": "code"}
         return f"{self.service.base}hub/api/oauth2/authorize?{urlencode({**query, 'state': state})}"
 

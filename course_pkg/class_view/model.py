@@ -35,8 +35,8 @@ class Hint:
 class ClassModel:
     """The state of a class.
 
-    `version` is the number of results that were added. `epoch` is random; a new value means that results were
-    deleted.
+    `version` is the number of results that were added. `epoch` is a random number; it changes when results
+    are deleted.
     """
 
     def __init__(self, names: Mapping[str, str], results: Iterable[Result] = ()) -> None:

@@ -60,7 +60,7 @@ def application(service: ClassService, prefix: str, secret: str, chapters: Seque
         default_handler_class=Unknown,
         default_handler_args=shared,
         cookie_secret=secret,
-        # Requests are not logged, because the page and the sender show an error if a request is refused.
+        # Requests are not logged: the page and the sender show an error if the service refuses a request.
         log_function=lambda _handler: None,
     )
 
@@ -79,8 +79,8 @@ class Handler(PageHandler):
         """
         token = self.request.headers.get("Authorization", "").removeprefix("token ")
         try:
-            # Results are sent by programs; a request with the header Origin comes from a page in a browser
-            # and is refused.
+            # Programs send the results. A request with the header Origin comes from a page in a browser and
+            # is refused.
             student = None if "Origin" in self.request.headers else await self.service.identity.student(token)
         except HubUnreachable as error:
             self.refuse(HTTPStatus.SERVICE_UNAVAILABLE, str(error))
@@ -91,7 +91,7 @@ class Handler(PageHandler):
 
 
 class Unknown(Handler):
-    """Refuses a request if no other handler has its address."""
+    """Refuses requests with an unknown address."""
 
     def get(self) -> None:
         """Send an error with the status 404."""
@@ -102,7 +102,7 @@ class TeacherHandler(Handler):
     """Refuses requests without a teacher's token, and requests that come from another page."""
 
     async def prepare(self) -> None:
-        """If the request has no teacher's token, refuse it, or redirect it to the hub's login."""
+        """Refuse a request without a teacher's token, or redirect the browser to the hub's login."""
         if (
             self.request.headers.get("Sec-Fetch-Site", "none") == "cross-site"
             and self.request.path != self.shared.prefix
@@ -208,7 +208,7 @@ class Callback(TeacherHandler):
 
 
 class About(Handler):
-    """Sends those settings of the service that students are allowed to see."""
+    """Sends the settings of the service that students may see."""
 
     async def get(self) -> None:
         """Send the teacher's name, and the number of days after which results are deleted."""

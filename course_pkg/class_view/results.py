@@ -34,9 +34,9 @@ def received(student: str, data: object, now: float, oldest: float) -> tuple[lis
 
     `data` is the JSON data of the request.
 
-    The id of an invalid item is also returned, so that the student's server does not send this item again. A
-    time in the future is replaced by the time `now`, and a time before the time `oldest` is replaced by
-    `oldest`. Raises ValueError if `data` is not a list of at most `MOST` results.
+    The ids of invalid items are included; the student's server then does not send these items again. A time
+    in the future becomes the time `now`, and a time before `oldest` becomes `oldest`. Raises ValueError if
+    `data` is not a list of at most `MOST` results.
     """
     sent = data.get("results") if isinstance(data, dict) else None
     if not isinstance(sent, list) or not 0 < len(sent) <= MOST:

@@ -53,7 +53,7 @@ class Storage:
         self._database.close()
 
     def add(self, results: Iterable[Result]) -> list[Result]:
-        """Store the results; return the results that were not stored before.
+        """Store the results, and return the new results.
 
         Raises TooMany if a student has sent too many results.
 
@@ -91,7 +91,7 @@ class Storage:
         return deleted
 
     def delete_old(self, days: float) -> int:
-        """Delete the results of each student whose last result arrived more than `days` days ago.
+        """Delete all results of each student whose last result is older than `days` days.
 
         Return the number of deleted results.
         """

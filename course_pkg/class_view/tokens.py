@@ -20,8 +20,8 @@ COLUMNS = ("username", "name", "token")
 def names_from(roster: Path | None, students: int) -> dict[str, str]:
     """Return a dict from usernames to names.
 
-    The students come from the roster. Without a roster, the function generates usernames; their number is
-    `students`.
+    The names come from the roster. Without a roster, the function generates `students` usernames. Without a
+    roster, the function generates usernames; their number is `students`.
 
     Raises ClassViewError if a student has no username.
     """
@@ -41,7 +41,7 @@ def names_from(roster: Path | None, students: int) -> dict[str, str]:
 
 
 class Tokens:
-    """The students' names and tokens in a file, which is read again after each change.
+    """The students' names and tokens in a file; after each change of the file, it is read again.
 
     Raises ClassViewError if the file cannot be used.
     """
