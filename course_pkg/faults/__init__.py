@@ -1,12 +1,12 @@
 """Faults of services, nodes and masters.
 
-A fault is not simulated: an object of the class Stage causes it on the running graph, and later removes it.
+A fault is real: an object of the class Stage causes it on the running graph, and later removes it.
 
     with caused("stale") as stage:
         seen = stage.symptom()
 
-The module `fault` describes one fault, `program` and `stage` cause it, and `catalogue` lists all faults. The
-panel BreakIt shows each fault to students as a case that they diagnose.
+The module `fault` describes one fault. The modules `program` and `stage` cause the fault, and `catalogue`
+lists all faults. In the panel BreakIt, each fault is a case that students diagnose.
 """
 
 from typing import TYPE_CHECKING

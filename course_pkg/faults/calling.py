@@ -116,7 +116,7 @@ def _freeze(stage: Stage) -> None:
 
 
 def _hog(stage: Stage) -> None:
-    """Connect to the server and send nothing, so that the server waits for a header."""
+    """Connect to the server and send nothing; the server then waits for a header."""
     stage.serve(keeper())
     uri = MasterClient(stage.uri).lookup_service(stage.door) or ""
     stage.later(socket.create_connection(("127.0.0.1", port_of(uri)), timeout=2.0).close)
@@ -128,8 +128,8 @@ def _misname(stage: Stage) -> None:
     No other process can connect to this server, so this function does not wait for a response.
     """
     master = MasterClient(stage.uri)
-    # The client uses 127.0.0.1 as its own host name. If the client used localhost, rospy would not try to
-    # resolve the server's host name.
+    # The client uses 127.0.0.1 as its own host name. With localhost, rospy would not try to resolve the
+    # server's host name.
     stage.visitor_env = {"ROS_HOSTNAME": "127.0.0.1"}
     program = stage.keep(keeper(), {"ROS_HOSTNAME": NO_HOST})
     stage.await_that(lambda: master.lookup_service(stage.door), program)

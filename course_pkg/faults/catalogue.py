@@ -48,7 +48,7 @@ def caused(name: str) -> Iterator[Stage]:
 def select(*chosen: str) -> tuple[Fault, ...]:
     """Return the faults whose name or group is in `chosen`; return all faults if `chosen` is empty.
 
-    Raises UnknownFault if a name in `chosen` is neither a fault nor a group.
+    Raises UnknownFault for a name in `chosen` that is not a fault and not a group.
     """
     found = [_found(name) for name in chosen] if chosen else [every_fault()]
     return tuple(dict.fromkeys(each for some in found for each in some))

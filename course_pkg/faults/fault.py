@@ -7,24 +7,24 @@ from dataclasses import dataclass
 
 from course_pkg.faults.stage import Stage
 
-HANG = 2.0  # If a program is still running after this time in s, it is assumed to wait for ever.
+HANG = 2.0  # A program that still runs after this time in s probably waits for ever.
 START = 2.0  # A command gets this additional time in s, because its process has to start first.
-TIMEOUT = 10.0  # A program that is expected to end has to end within this time in s.
+TIMEOUT = 10.0  # A program with an expected end has to end within this time in s.
 
 
 @dataclass(frozen=True)
 class Fault:
     """One fault.
 
-    At first, students see only the text `story`. Later, they choose a diagnosis and a remedy; `diagnosis` and
+    Students first see only the text `story`. Later, they choose a diagnosis and a remedy; `diagnosis` and
     `remedy` are the correct choices. The function `play` causes the fault on a stage (see the module
     `stage`). `visitor` is a program or command that shows the symptom: the text of a Python program, or "$ "
     and a command line.
 
     `look` describes the symptom in one or two words. The first word names a group of symptoms, and the second
     word a subgroup of very similar symptoms. Students choose between the correct diagnosis and wrong
-    diagnoses, which belong to other faults with a similar `look`. `unlike` contains faults whose diagnoses
-    would also be correct, so these diagnoses are not offered as wrong choices.
+    diagnoses. The wrong diagnoses belong to other faults with a similar `look`. `unlike` contains faults with
+    diagnoses that would also be correct; these diagnoses are not offered as wrong choices.
     """
 
     name: str

@@ -5,9 +5,9 @@ The process reads a byte from a pipe before it runs the program.
 usage: player.py READY GO NAME CODE [ARGUMENT …]
 
 READY and GO are file descriptors. When the interpreter and rospy are loaded, this program writes a byte to
-READY, reads a byte from GO, and runs the code. After the code has ended, this program writes the exit status
-to READY as one byte. Therefore, the caller can start the interpreter early, and then measure only the running
-time of the code.
+READY. Then it reads a byte from GO, and runs the code. After the code has ended, this program writes the exit
+status to READY as one byte. The caller can therefore start the interpreter early, and then measure only the
+running time of the code.
 """
 
 from __future__ import annotations

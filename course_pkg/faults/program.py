@@ -24,7 +24,7 @@ from course_pkg.waiting import wait_until
 PLAYER = Path(__file__).with_name("player.py")
 READY = 15.0  # An interpreter has to start and import rospy within this time in s; the usual time is 0.3 s.
 LONGEST = 8000  # Only the last `LONGEST` bytes of an output are shown.
-INTERVAL = 0.01  # The state of a process is polled after each pause of this time in s.
+INTERVAL = 0.01  # The course polls the state of a process after each pause of this time in s.
 # The pattern matches a terminal's escape codes for colours and for the window title.
 _FOR_A_TERMINAL = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\a]*\a")
 
@@ -59,7 +59,7 @@ class Seen:
 class Program:
     """A Python program or a command in a separate process.
 
-    The program's process ends at the latest when the current process ends.
+    When the current process ends, the program's process also ends.
 
     A Python program waits for begin(); a command begins at once.
     """
@@ -93,7 +93,7 @@ class Program:
             self._began = time.monotonic()
 
     def watch(self, timeout: float) -> Seen:
-        """Wait until the program ends, or until its time limit `timeout` (s) is over; return its result."""
+        """Wait until the program ends, or for at most `timeout` s; return its result."""
         wait_until(lambda: self.over, self._began + timeout - time.monotonic(), INTERVAL)
         took = time.monotonic() - self._began
         return Seen(self.shown, self.output(), took, self._status)

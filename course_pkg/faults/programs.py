@@ -33,7 +33,7 @@ rospy.spin()
 def keeper(body: str = WELL, **changes: str) -> str:
     """Return a program that serves /door; `body` is the code of its handler.
 
-    In the text of the program, each key of `changes` is replaced by its value.
+    Each key of `changes` is a text in the program; its value replaces this text.
     """
     code = _KEEPER.format(body=body.replace("\n", "\n    "))
     for old, new in changes.items():

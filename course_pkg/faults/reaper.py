@@ -2,9 +2,9 @@
 
 usage: reaper.py MASTER NAMESPACE FOLDER
 
-The processes of a fault end when the kernel ends. If the fault has killed a process, the registrations of
-this process remain at the master. After SIGTERM, which means that the kernel has ended, this program removes
-the registrations. This program runs for every fault, so it imports other modules only after SIGTERM.
+The processes of a fault end when the kernel ends. If the fault has killed a process, its registrations remain
+at the master. SIGTERM means that the kernel has ended; this program then removes the registrations. This
+program runs for every fault, so it imports other modules only after SIGTERM.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def clean_up(master: str, namespace: str, folder: str) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     deadline = time.monotonic() + DURATION
     try:
-        # The removal is repeated, because a program that is ending can still register a service or topic.
+        # The removal is repeated: a program that is ending can register another service or topic.
         while time.monotonic() < deadline:
             withdraw_below(MasterClient(master, timeout=0.5), f"{namespace}/")
             time.sleep(0.1)

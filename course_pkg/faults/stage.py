@@ -1,7 +1,8 @@
 """A stage causes a fault on the graph, and later removes the fault.
 
-A stage runs the programs of the fault, and if necessary a separate master. All nodes and services of a stage
-are in one namespace of the running graph, such as /lab. A stage does not change other nodes and services.
+A stage runs the programs of the fault, and a separate master if the fault needs one. All nodes and services
+of a stage are in one namespace of the running graph, such as /lab. A stage does not change other nodes and
+services.
 """
 
 from __future__ import annotations
@@ -86,8 +87,7 @@ class Stage:
         try:
             self.fault.play(self)
             if not self.fault.is_command:
-                # On a busy machine, the start of the program `visitor` would delay the fault, so this program
-                # starts last.
+                # The program `visitor` starts last: on a busy machine, its start would delay the fault.
                 self.expect_visitor()
         except BaseException:
             self.undo()
@@ -113,7 +113,7 @@ class Stage:
         self._end()
 
     def expect_visitor(self) -> None:
-        """Start the interpreter of the program `visitor` early, so that symptom() does not have to wait."""
+        """Start the interpreter of the program `visitor` early; symptom() then does not have to wait."""
         if self._visitor is None:
             text = self.fault.visitor
             self._visitor = (
@@ -166,7 +166,7 @@ class Stage:
         return master
 
     def hang(self, master: PrivateMaster) -> None:
-        """Suspend this fault's own master with SIGSTOP; undo() continues the master, and then ends it."""
+        """Suspend this fault's own master with SIGSTOP. undo() continues the master, and then ends it."""
         pid = master.pid
         self.later(partial(os.kill, pid, signal.SIGCONT))
         os.kill(pid, signal.SIGSTOP)
@@ -185,7 +185,7 @@ class Stage:
         """
 
         def settled() -> str:
-            # Read `over` first, because the program may make the condition true and then end.
+            # Read `over` first: the program may make the condition true and then end.
             over = program.over
             return "met" if condition() else "over" if over else ""
 
@@ -226,7 +226,7 @@ class _Resources:
 
     When the stage is deleted, the processes end and the files are deleted.
 
-    No attribute refers to the stage; otherwise, the stage could not be deleted.
+    No attribute refers to the stage. Such a reference would prevent Python from deleting the stage.
     """
 
     def __init__(self, uri: str, namespace: str) -> None:
@@ -242,7 +242,7 @@ class _Resources:
         )
 
     def clear(self) -> None:
-        """End all processes, and delete all files; after a failed step, the next steps still run."""
+        """End all processes and delete all files; if one step fails, run the next steps."""
         while self.ends:
             with suppress(OSError):
                 self.ends.pop()()
@@ -252,7 +252,7 @@ class _Resources:
             self.programs.pop().end()
         while self.masters:
             self.masters.pop().stop()
-        with suppress(GraphError):  # If the master has ended, no registrations exist.
+        with suppress(GraphError):  # If the master has ended, there are no registrations to remove.
             withdraw_below(MasterClient(self._uri), self._namespace + "/")
         self._reaper.end(grace=0)
         shutil.rmtree(self.folder, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""The node `client`: it calls the service `getGeometry` with the sides of a box, and prints the response."""
+"""The node `client`. It calls the service `getGeometry` with the sides of a box, and prints the response."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def measure(sides: tuple[float, float, float]) -> str:
     ROSException if the service does not exist within `TIMEOUT` seconds, and CallTimeout if the response does
     not arrive within `TIMEOUT` seconds.
     """
-    # Raise an error if no master answers, because init_node would wait for ever.
+    # This call raises an error if no master answers; init_node would wait for ever.
     MasterClient(master_uri()).pid()
     rospy.init_node("client", anonymous=True)
     prepare_node()

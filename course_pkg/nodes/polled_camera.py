@@ -86,7 +86,7 @@ def main() -> None:
     rate = number_parameter("~stream", 0.0, 0.0, 100.0)
     with undisturbed():
         camera = PolledCamera()
-    # Wait for the first message, so that the first picture shows the real customers.
+    # Wait for the first message; the first picture then shows the real customers.
     wait_until(camera.knows_the_shop, SILENCE / 2)
     with undisturbed():
         rospy.Service("request_image", PolledImage, camera.handle_request)
