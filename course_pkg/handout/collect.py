@@ -22,8 +22,8 @@ from course_pkg.handout.selection import chosen_chapters
 from course_pkg.setup.stamps import locked
 
 LOCK = ".lock"
-# The maximum time in ns between a file's modification time and its last change on disk. If the time is
-# longer, an instructor should examine the file.
+# The maximum time in ns between a file's modification time and its last change on disk. If the difference is
+# larger, an instructor should examine the file.
 SET_BACK = 60 * 10**9
 
 
@@ -75,12 +75,12 @@ class Wanted:
 def collect(options: Options) -> int:
     """Collect the work, and print a summary. Return 1 if no work was found, and 0 otherwise.
 
-    Raises HandoutError if an option is wrong; in this case, nothing is collected.
+    Raises HandoutError, and collects nothing, if an option is wrong.
     """
     folder = _course_folder(options.folder)
     wanted = Wanted(chosen_chapters(listed=options.chapters))
     homes = homes_in(options.homes, read_students(options.students) if options.students else None)
-    # If the folder contains files but no times.csv, this call raises an error before anything is changed.
+    # This call raises an error before anything is changed, if the folder contains files but no times.csv.
     TimesTable(options.out)
     if os.geteuid() != 0:
         sys.stderr.write(
@@ -96,7 +96,7 @@ def collect(options: Options) -> int:
             ),
         ):
             table = TimesTable(out)
-            # times.csv is written first, so that a user can repeat an interrupted collection.
+            # This call writes times.csv first, so a user can repeat an interrupted collection.
             table.replace((), ())
             for home in homes:
                 _collect_one(home, folder, wanted, out, table, found)

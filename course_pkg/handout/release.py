@@ -33,8 +33,8 @@ class Options:
 def release(options: Options, hidden: Collection[str], root: Path | None = None) -> int:
     """Write the edition, print its location and how to hand it out, and return 0.
 
-    `hidden` contains the commands that do not work in the edition. Raises HandoutError if the folder contains
-    files that no release has written, or if an option is wrong. In both cases, nothing is written.
+    `hidden` contains the commands that do not work in the edition. Raises HandoutError, and writes nothing,
+    if an option is wrong. The same happens if the folder contains files that no release has written.
     """
     checkout = root or Places.of().checkout
     released = chosen_chapters(options.path, options.chapters)
@@ -94,12 +94,12 @@ def _how_to_hand_out(folder: ReleaseFolder, options: Options, repository: str, l
 
 
 def pull_link(hub: str, repository: str, branch: str, notebook: str) -> str:
-    """Return the link with which nbgitpuller copies the edition into a student's account on a JupyterHub.
+    """Return a link for nbgitpuller: it copies the edition into a student's account on a JupyterHub.
 
     The link pulls the branch `branch` of the repository, and opens the notebook at the path `notebook` in the
     repository. `hub` is the address of the JupyterHub. The format is documented at
-    https://nbgitpuller.readthedocs.io/en/latest/link.html. Raises HandoutError if an address begins neither
-    with https:// nor with http://.
+    https://nbgitpuller.readthedocs.io/en/latest/link.html. Raises HandoutError if an address does not begin
+    with https:// or http://.
     """
     for option, address in (("--hub", hub), ("--repository", repository)):
         parts = urlsplit(address)

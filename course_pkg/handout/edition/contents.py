@@ -28,8 +28,8 @@ FILES = (
     *(".dockerignore", ".gitignore", "CMakeLists.txt", "LICENSE", "course", "environment.yml", "package.xml"),
     *("pyproject.toml", "setup.py"),
 )
-# The edition does not contain the files that match this pattern: example answers, grading fixtures, the
-# site's recordings, and private checks.
+# The files that match this pattern are not in the edition: example answers, grading fixtures, the site's
+# recordings, and private checks.
 LEFT_OUT = re.compile(
     r"course_pkg/chapters/(?:ch\d\d_\w+/(?:(?:answers|fixtures)(?:\.py$|/)|recordings\.json$)|private_)"
 )
@@ -61,7 +61,7 @@ def edition_files(root: Path, released: Sequence[str], hidden: Collection[str]) 
 
 
 def untracked_files(root: Path) -> list[str]:
-    """Return the files of the package that git does not track; the edition does not contain these files."""
+    """Return the files of the package that git does not track; they are not in the edition."""
     listed = _git_listing(root, "--others", "--exclude-standard") or []
     return [name for name in listed if is_released(name)]
 

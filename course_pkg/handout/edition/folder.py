@@ -20,7 +20,7 @@ SHOWN = 5  # A message lists at most this many names.
 
 @dataclass(frozen=True)
 class Release:
-    """The short name of the new commit ("" if nothing changed), and the number of changed files."""
+    """The short name of the new commit, or "" if nothing changed; and the number of changed files."""
 
     commit: str
     changed: int  # This is the number of changed files.
@@ -51,12 +51,12 @@ class ReleaseFolder:
         """Write the given files, remove all other files of an earlier release, and commit the changes.
 
         Raises HandoutError if a file with uncommitted changes would be overwritten, or if the folder cannot
-        be written. If a file would be overwritten, nothing is changed.
+        be written. In the first case, nothing is changed.
         """
         self._refuse_changes_by_hand(files)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            # The list of files is written first, so that a user can repeat an interrupted release.
+            # The list of files is written first; a user can then repeat an interrupted release.
             self._put(RECORD, files[RECORD])
             changed = [name for name, file in files.items() if self._put(name, file)]
             removed = [name for name in self._before if name not in files and self._remove(name)]
@@ -105,7 +105,7 @@ class ReleaseFolder:
         return present is not None and present != wanted
 
     def _put(self, name: str, file: File) -> bool:
-        """Write a file, unless the same file already exists; return True if this function wrote the file."""
+        """Write a file if its content has changed; return whether this function wrote the file."""
         path = self.path / name
         mode = 0o755 if file.executable else 0o644
         same = path.is_file() and not path.is_symlink() and path.read_bytes() == file.content
@@ -147,7 +147,7 @@ def _stays_inside(name: str) -> bool:
 def refuse_inside(path: Path, checkout: Path) -> None:
     """Raise HandoutError if `path` is in the checkout.
 
-    A release in the checkout would become part of the next release.
+    The next release would contain a release in the checkout.
     """
     if path.resolve().is_relative_to(checkout.resolve()):
         raise HandoutError(f"{path} is inside the course's own folder. Give a folder outside {checkout}.")

@@ -1,6 +1,6 @@
 """Runs git in a folder.
 
-The user's git hooks do not run. The variables that another git command has set for a hook are removed.
+The user's git hooks do not run. The variables that git sets for a hook are removed.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ NO_IDENTITY = {"user.name": "course release", "user.email": "course@localhost"}
 def git(folder: Path, *arguments: str, given: str = "", identity: bool = False) -> str:
     """Run git in the folder `folder` with the text `given` as its input, and return its output.
 
-    If `identity` is True, a commit gets a default name and address unless the user has configured them.
-    Raises HandoutError if git fails or is not installed.
+    If `identity` is True, a commit gets a default name and address if the user has configured none. Raises
+    HandoutError if git fails or is not installed.
     """
     settings = {**SETTINGS, **(_missing_identity(folder) if identity else {})}
     options = [word for name, value in settings.items() for word in ("-c", f"{name}={value}")]
@@ -54,7 +54,7 @@ def git(folder: Path, *arguments: str, given: str = "", identity: bool = False) 
 
 
 def git_value(folder: Path, *arguments: str) -> str:
-    """Return the line that git prints, or "" if git fails, for example because the value is not set."""
+    """Return the line that git prints. If git fails, for example because the value is not set, return ""."""
     try:
         return git(folder, *arguments).strip()
     except HandoutError:

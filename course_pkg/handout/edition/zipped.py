@@ -12,7 +12,7 @@ from course_pkg.files import write_atomically
 from course_pkg.handout.edition.contents import File
 
 MARK = b"made by course release"  # This text is the comment of the zip file.
-# Each file in the zip has this time, so an unchanged edition gives an unchanged zip.
+# Each file in the zip has this time; an unchanged edition therefore gives an unchanged zip.
 TIME = (2000, 1, 1, 0, 0, 0)
 
 

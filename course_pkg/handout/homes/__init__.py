@@ -1,1 +1,1 @@
-"""Finds students' work in home folders, reads it with the rights of each student, and stores it."""
+"""Finds students' work in home folders. Reads the work with the rights of each student, and stores it."""

@@ -56,7 +56,7 @@ def groups_of(home: Home) -> list[int]:
     """Return the ids of all groups of the home's owner."""
     try:
         return os.getgrouplist(pwd.getpwuid(home.uid).pw_name, home.gid)
-    except KeyError:  # The owner is a user of a container, and this machine does not know the user.
+    except KeyError:  # The owner is a user of a container and has no account on this machine.
         return [home.gid]
 
 

@@ -1,9 +1,9 @@
 """Reads a student's work in a child process that has only the rights of this student.
 
 If root runs `course collect`, the child process gives up all rights of root before it reads the home folder.
-Then the child process can read only files that the student can read. Therefore, even if a student creates a
-link, or replaces a folder during the reading, the child cannot read other users' private files. If a user
-without root's rights runs `course collect`, the child has the rights of that user.
+After this, the child process can read only files that the student can read. A student may create a link, or
+replace a folder during the reading. The child still cannot read other users' private files. Without root's
+rights, the child has the rights of the user who runs `course collect`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from course_pkg.handout.homes.listing import Home, groups_of
 from course_pkg.handout.homes.work import Problem, WorkFile, work_in
 from course_pkg.waiting import Deadline
 
-# Reading one home may take up to this time in s. Without this limit, a network folder that does not respond
+# Reading one home may take up to this time in s. Without a limit, a network folder that does not respond
 # would stop the whole collection.
 TIMEOUT = 60.0
 ALTOGETHER = 200 << 20  # ALTOGETHER is the maximum number of bytes of one student's work.
@@ -71,7 +71,7 @@ def become(home: Home) -> None:
 
     Do nothing if this process does not run as root.
 
-    After this process has changed its user, no process of the home's owner can trace it (ptrace(2)). Raises
+    After the change of the user, no process of the home's owner can trace this process (ptrace(2)). Raises
     PermissionError if this process still has rights of root.
     """
     if os.geteuid() != 0:

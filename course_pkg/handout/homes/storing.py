@@ -3,8 +3,8 @@
 SUBMISSIONS/<student>/NN_topic.ipynb
 SUBMISSIONS/<student>/<package>/package.xml
 
-Each notebook and each whole package is replaced in one step, so a reader never sees a mixture of old and new
-files.
+Each notebook and each whole package is replaced in one step. A reader therefore never sees a mixture of old
+and new files.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def store(folder: Path, files: Sequence[WorkFile]) -> None:
 
     Other notebooks and packages in the folder are not changed. Raises OSError if a file cannot be written.
     """
-    for draft in folder.glob(".*.collecting"):  # An earlier collection was killed, and this folder remained.
+    for draft in folder.glob(".*.collecting"):  # An earlier collection was killed and left this folder.
         shutil.rmtree(draft, ignore_errors=True)
     for file in (each for each in files if not each.package):
         write_atomically(folder / file.path, file.content)

@@ -1,4 +1,4 @@
-"""times.csv: the time of the last change of each collected file; the grader compares them with the deadlines.
+"""times.csv contains the time of the last change of each collected file.
 
 The columns are student, chapter, file and time. The column `file` contains a path relative to the folder of
 submissions. The column `time` contains the file's modification time in ISO 8601 with a time zone. A package

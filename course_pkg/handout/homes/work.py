@@ -1,7 +1,8 @@
 """A student's work in a home folder: the chapters' notebooks, and the catkin packages that parts require.
 
-Each folder and file is opened relative to its parent folder, and links are not followed. Therefore, replacing
-a folder with a link during the reading is harmless. The number and the size of the files are limited.
+Each folder and file is opened relative to its parent folder, and links are not followed. Therefore, no harm
+is done if a folder is replaced with a link during the reading. The number and the size of the files are
+limited.
 """
 
 from __future__ import annotations
@@ -21,10 +22,10 @@ from course_pkg.workspace.fault import manifest_tags
 NOTEBOOKS, SOURCES = "notebooks", "workspace/src"  # These paths are relative to the course's folder.
 DEPTH = 12  # Folders can be nested to this depth.
 ENTRIES = 5_000  # At most this many files and folders of a workspace are examined.
-# A later modification time (ns since 1970) is replaced by this time, the beginning of the year 2100. A file
-# can have any modification time, but some large times are not valid dates.
+# A later modification time (ns since 1970) is replaced by this time, the beginning of the year 2100. A user
+# can set any modification time, but some large times are not valid dates.
 LATEST = 4_102_444_800 * 10**9
-TRIES = 3  # If a file changes while it is read, this many attempts are made.
+TRIES = 3  # The course tries this many times to read a file that changes during the reading.
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ class Refused(HandoutError):
 
 @dataclass
 class Walk:
-    """A search in a workspace: the packages to find, the packages that it found, and the remaining limits."""
+    """A search in a workspace: the wanted packages, the found packages, and the remaining limits."""
 
     asked: frozenset[str]
     found: set[str] = field(default_factory=set)  # The set contains the names of the packages' folders.
@@ -90,7 +91,7 @@ def work_in(
 
 
 def _notebooks(course: int, notebooks: Mapping[str, str]) -> Iterator[WorkFile | Problem]:
-    """Yield the notebooks in the folder `notebooks`, and then the notebooks in the course's folder itself."""
+    """Yield the notebooks in the folder `notebooks`, and then those directly in the course's folder."""
     done: set[str] = set()
     for place in (NOTEBOOKS, ""):
         try:
