@@ -16,7 +16,7 @@ FIRST_UID = 1000  # smaller numbers belong to the system's own accounts
 
 
 def check_names(names: Iterable[str]) -> None:
-    """Raise HubError, with a list of the wrong names, if a name cannot be the name of an account."""
+    """Raise HubError, with a list of the wrong names, if a name is not valid for an account."""
     wrong = [name for name in names if not NAME.fullmatch(name)]
     if wrong:
         raise HubError(
@@ -29,8 +29,8 @@ def check_names(names: Iterable[str]) -> None:
 def make_accounts(names: Iterable[str]) -> list[str]:
     """Create the accounts that are missing, each with a home folder, and return their names.
 
-    The new accounts have no password for a login to the machine itself. Raises HubError before it creates an
-    account if a name belongs to the system, or if this process is not root.
+    The new accounts have no password for a login to the machine itself. Raises HubError if a name belongs to
+    the system or this process is not root; no account is created then.
     """
     missing = []
     for name in names:

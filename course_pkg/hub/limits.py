@@ -72,8 +72,8 @@ def _deleted(group: Path) -> bool:
 def set_rlimits(limits: Limits, own_account: bool) -> None:
     """Limit the data memory of this process and of each child, and the number of the account's processes.
 
-    The system counts all processes of an account, so the number of processes is limited only if `own_account`
-    is true.
+    The system counts all processes of an account. Therefore, the number of processes is limited only if
+    `own_account` is true.
     """
     _lower(resource.RLIMIT_DATA, limits.memory * MIB)
     if own_account:

@@ -41,7 +41,7 @@ class Passwords:
         return issued
 
     def use(self, user: str, password: str) -> bool:
-        """Return whether this is the user's unused password; if it is, the password becomes invalid."""
+        """Return whether this is the user's unused password. If so, the password becomes invalid."""
         with self._locked() as known:
             salt, _, expected = known.get(user, "").partition(":")
             given = _hash(password.strip().lower(), bytes.fromhex(salt))

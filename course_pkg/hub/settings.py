@@ -10,7 +10,7 @@ from pathlib import Path
 from course_pkg.hub.passwords import write_private
 
 VARIABLE = "COURSE_HUB_SETTINGS"  # This environment variable contains the path of the settings file.
-# This environment variable contains the folder in which each student's server creates a folder for temporary
+# This environment variable contains a folder; in it, each student's server creates a folder for temporary
 # files.
 SCRATCH = "COURSE_HUB_SCRATCH"
 FOLDER = "ros-course"  # the course's folder in each home folder
@@ -28,7 +28,7 @@ class Settings:
     proxy_port: int
     students: tuple[str, ...]
     teacher: str
-    homes: str  # the folder that contains the home folders if the students have no accounts, otherwise ""
+    homes: str  # the folder of the home folders if the students have no accounts, otherwise ""
     memory: int  # The memory is in MiB.
     processes: int
     class_port: int  # the port of the class view, or 0 without a class view
@@ -45,6 +45,6 @@ class Settings:
 
     @classmethod
     def read(cls) -> Settings:
-        """Return the settings in the file that the variable COURSE_HUB_SETTINGS names."""
+        """Return the settings in the file at the path in the variable COURSE_HUB_SETTINGS."""
         data = json.loads(Path(os.environ[VARIABLE]).read_text())
         return cls(**{**data, "students": tuple(data["students"])})

@@ -1,4 +1,4 @@
-"""A student's server: `python -m course_pkg.hub.single_user`, which the spawner runs as the student.
+"""The server of a student: `python -m course_pkg.hub.single_user`. The spawner runs it as the student.
 
 The program gets the released notebooks, starts the student's master, and then runs JupyterLab as a server of
 the hub.
@@ -59,7 +59,7 @@ def pull(repository: str, folder: Path) -> None:
 
     If git fails, the server starts with the notebooks that are already in the folder.
     """
-    # The repository belongs to another user, so git reads the setting safe.directory only from a
+    # The repository belongs to another user. git therefore reads the setting safe.directory only from a
     # configuration file outside the repository.
     environment = {**os.environ, "GIT_CONFIG_SYSTEM": str(Path(repository).parent / GIT_SETTINGS)}
     command = [sys.executable, "-m", "nbgitpuller.pull", f"file://{repository}", BRANCH, str(folder)]
@@ -79,11 +79,11 @@ def pull(repository: str, folder: Path) -> None:
 
 
 def _make_repository(repository: str, folder: Path, environment: Mapping[str, str]) -> None:
-    """Turn a folder that `course lab` made before into a clone of the repository.
+    """Turn a folder that an earlier `course lab` made into a clone of the repository.
 
     A file of an earlier release gets the newest version. All other files of the student do not change. The
-    folder becomes a repository at the very end, so an interrupted call is repeated at the next start. Raises
-    subprocess.CalledProcessError if git fails, and OSError if the folder cannot be written.
+    folder becomes a repository at the very end. After an interruption, the next start therefore repeats this
+    call. Raises subprocess.CalledProcessError if git fails, and OSError if the folder cannot be written.
     """
     with tempfile.TemporaryDirectory(prefix=".course-", dir=folder) as clone:
         files = Path(clone, ".git")
@@ -113,7 +113,8 @@ def _serve() -> None:
 
     os.environ["PATH"] = path
     with _without_database():
-        # Import this module while the empty modules exist; otherwise, main() imports it later.
+        # Import this module here, because the empty modules exist now; otherwise, main() would import it
+        # later.
         import jupyterhub.singleuser.extension  # noqa: F401
         from jupyterhub.singleuser import main as serve
 
@@ -124,7 +125,7 @@ def _serve() -> None:
 def _without_database() -> Iterator[None]:
     """During the `with` block, replace the modules of SQLAlchemy and of the hub's pages by empty modules.
 
-    jupyterhub imports these modules in a student's server, too, although only the hub uses them. The imports
+    jupyterhub also imports these modules in a student's server, although only the hub uses them. The imports
     would need 30 MiB of memory in each server.
     """
     placeholders = {name: ModuleType(name) for name in (*ONLY_IN_HUB, *NAMES_ONLY_IN_HUB)}

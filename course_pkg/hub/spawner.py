@@ -1,4 +1,4 @@
-"""JupyterHub's spawner for the course: a student's server has limits, and ends when the hub ends."""
+"""JupyterHub's spawner for the course: a student's server has limits, and ends with the hub."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from course_pkg.hub import limits
 from course_pkg.hub.accounts import home_problem
 from course_pkg.ros.process.supervised import PROGRAM
 
-# A server does not start if the disk of the home folder has less free space than this number of bytes.
+# A server starts only if the disk of the home folder has at least this number of free bytes.
 LEAST_SPACE = 50 << 20
 
 
 class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base class has no types.
-    """Starts `single_user.py` as the student; a supervisor ends this program after the hub has ended."""
+    """Starts `single_user.py` as the student. A supervisor ends this program after the end of the hub."""
 
     homes = Unicode(help="the folder of the home folders if the students have no accounts").tag(config=True)
     memory = Integer(1024, help="MiB for each student").tag(config=True)
@@ -48,8 +48,8 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
     async def start(self) -> object:
         """Start the server.
 
-        Raises HubError, with a message for the student's page, if the server cannot use the home folder or
-        its limits.
+        Raises HubError if the server cannot use the home folder or its limits. The student's page shows the
+        message.
         """
         try:
             self._refuse()

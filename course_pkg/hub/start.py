@@ -55,8 +55,8 @@ class Options:
 def serve_hub(options: Options) -> int:
     """Prepare the hub, print its address, and run it until Ctrl-C; return 0 or the hub's exit status.
 
-    Raises HubError or HandoutError, before anything is started, if an option is wrong or if this machine
-    cannot run the hub.
+    Raises HubError or HandoutError if an option is wrong, or if this machine cannot run the hub. Nothing has
+    been started then.
     """
     places = Places.of()
     base = data_folder(places, options.data)
@@ -117,7 +117,7 @@ def serve_hub(options: Options) -> int:
 
 
 def renew_password(user: str, data: Path | None) -> int:
-    """Print a new one-time password, which a running hub accepts at once, and return 0.
+    """Print a new one-time password and return 0; a running hub accepts the password at once.
 
     `user` is the name of the student.
     """
@@ -132,8 +132,8 @@ def renew_password(user: str, data: Path | None) -> int:
 def data_folder(places: Places, given: Path | None) -> Path:
     """Return the folder of the hub's data. Students can read this folder, except its subfolder `private`.
 
-    In a shared installation, the folder of the hub's data is next to the folders of the versions, so an
-    upgrade does not delete the data.
+    In a shared installation, the hub's data are next to the folders of the versions. An upgrade therefore
+    does not delete them.
     """
     version = version_folder(places.checkout)
     return (given or (version.parents[1] if version else places.cache) / "hub").absolute()
@@ -183,10 +183,10 @@ def _require_protection(places: Places) -> None:
 
 
 def _closed(path: Path) -> Path | None:
-    """Return the folder or file that prevents other users from reading `path`.
+    """Return the first folder or file on the path `path` that other users cannot open.
 
-    The result is the first folder that other users cannot enter, or `path` itself if it is a file that they
-    cannot read. If other users can read `path`, the result is None.
+    The result is a folder that other users cannot enter, or the file `path` that they cannot read. The result
+    is None if other users can read `path`.
     """
     for each in (*reversed(path.parents), path):
         mode = each.stat().st_mode
@@ -236,10 +236,11 @@ def _student_environment(places: Places, repository: Path) -> dict[str, str]:
     """Return the variables of the course for the students' servers."""
     variables = environment.merged(places, {"PATH": os.defpath})
     variables.pop("ROS_LOG_DIR")
-    # The kernels' sockets are in this folder. Its path is short, because Linux limits the path of a socket to
-    # 107 bytes. The hub's supervisor deletes this folder.
+    # The kernels' sockets are in this folder. Its path is short, because a socket's path has at most 107
+    # bytes on Linux. The hub's supervisor deletes this folder.
     scratch = Path(tempfile.mkdtemp(prefix="course-hub-", dir="/tmp"))
-    # These are the permissions of /tmp: each student can create a folder, and only its owner can delete it.
+    # These are the permissions of /tmp: each student can create a folder, and only the folder's owner can
+    # delete it.
     scratch.chmod(0o1777)
     return {**variables, "COURSE_RELEASED": str(repository), SCRATCH: str(scratch)}
 

@@ -1,4 +1,4 @@
-"""The tools that the hub needs and pip does not provide: the proxy program, and a test certificate."""
+"""Tools that the hub needs and that pip does not provide: the proxy program, and a test certificate."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CERTIFICATE_DAYS = 30
 
 
 def installed_proxy(places: Places) -> Path:
-    """Return the program of configurable-http-proxy; if it is missing, npm installs it first.
+    """Return the program of configurable-http-proxy. If it is missing, install it with npm first.
 
     Raises HubError if npm is missing or fails.
     """
@@ -39,7 +39,9 @@ def installed_proxy(places: Places) -> Path:
 
 
 def self_signed(folder: Path, address: str) -> tuple[Path, Path]:
-    """Return a certificate for the address, and its key; if these files are missing, openssl creates them.
+    """Return a certificate for the address, and its key.
+
+    If these files are missing, create them with openssl.
 
     Both files are in the folder `folder`.
 

@@ -66,10 +66,13 @@ def _version_id(edition: Path) -> str:
 
 
 def _make(version: Path, edition: Path) -> None:
-    """Build a version; installation.json is written last. If the build fails, only the log is kept."""
+    """Build a version.
+
+    The file installation.json is written last. If the build fails, everything except the log is deleted.
+    """
     places = Places(version / "course", version / BUILT)
     shutil.rmtree(version, ignore_errors=True)
-    # uv has to copy files. With hard links to uv's cache, the owner of this cache could change the
+    # uv has to copy files. If uv made hard links to its cache, the owner of the cache could change the
     # installation.
     os.environ["UV_LINK_MODE"] = "copy"
     try:
@@ -95,8 +98,8 @@ def _make(version: Path, edition: Path) -> None:
 def _compile(places: Places) -> None:
     """Compile all modules.
 
-    Users cannot write to the installation. Without compiled files, Python would compile the modules at each
-    start.
+    Users cannot write to the installation, so Python could not store compiled modules and would compile them
+    at each start.
     """
     folders = [places.checkout / "course_pkg", places.venv / "lib", places.workspace / "devel" / "lib"]
     # The exit status of compileall is ignored, because some libraries contain files that this version of

@@ -80,19 +80,19 @@ class Prefix:
     def remove_unused(self, kept: set[Path]) -> list[Path]:
         """Remove all versions that no process uses, except the versions in `kept`.
 
-        Return the versions that a process still uses.
+        Return the versions that were not removed because a process still uses them.
         """
         others = [path for path in self.versions.iterdir() if path not in kept]
         busy = [path for path in others if any(users_of(path))]
         for path in set(others) - set(busy):
-            # delete this file first, so that a version does not count as complete if its removal is
-            # interrupted
+            # delete this file first; after an interrupted removal, the version then does not count as
+            # complete
             (path / RECORD).unlink(missing_ok=True)
             shutil.rmtree(path)
         return busy
 
     def remove(self) -> None:
-        """Remove the links and the installation, but only the files that `course install` has made."""
+        """Remove the links and the installation; remove only files that `course install` has made."""
         for link, target in self._links.items():
             if _leads_to(link, target):
                 link.unlink()
@@ -111,7 +111,7 @@ class Prefix:
 
 
 def users_of(folder: Path) -> Iterator[int]:
-    """Yield the ids of the processes that have the path of the folder in their command line or environment.
+    """Yield the ids of the processes with the folder's path in their command line or environment.
 
     The environment of every program of the course contains the path of the folder. Only root can read the
     environments of other users' processes.

@@ -13,8 +13,8 @@ from course_pkg.setup import Places
 def uninstall(path: Path | None, *, force: bool) -> int:
     """Remove the installation in the prefix `path`, or the installation that contains this module; return 0.
 
-    Raises SetupError, and changes nothing, if `path` contains no installation, or if users work with it and
-    `force` is False.
+    Raises SetupError, and changes nothing, if `path` contains no installation. The same happens if users work
+    with it and `force` is False.
     """
     places = Places.of()
     prefix = Prefix(path or (places.checkout.parents[2] if places.installed else None))
