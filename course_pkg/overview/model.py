@@ -27,12 +27,12 @@ class PartProgress:
 
     @property
     def passed(self) -> bool:
-        """Whether a check of the part has passed at least once; a later check may have failed."""
+        """Whether a check of the part has passed at least once; later checks may have failed."""
         return bool(self.record and self.record.passed)
 
     @property
     def earned(self) -> float:
-        """All points of the part if it has passed, else the points of its last check."""
+        """All points of a passed part; otherwise, the points of its last check."""
         return self.possible if self.passed else self.record.points if self.record else 0
 
     @property

@@ -46,9 +46,9 @@ def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
 def _following(
     progress: Progress, current: ChapterProgress, by_number: dict[str, ChapterProgress]
 ) -> dict[str, list[str]]:
-    """Return a dict; each key is the number of an incomplete chapter that a learning path contains next.
+    """Return the incomplete chapters that come next on a learning path; the keys are chapter numbers.
 
-    The values are the names of these learning paths.
+    The values are the names of the learning paths.
     """
     found: dict[str, list[str]] = {}
     for path in progress.paths:

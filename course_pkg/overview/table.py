@@ -13,7 +13,7 @@ HEAD = (
     *("chapter", "title", "kind", "id", "text", "state", "points", "possible"),
     *("checks", "last_result", "last_time", "first_passed"),
 )
-# A spreadsheet program would run a cell as a formula if the cell begins with one of these characters.
+# A spreadsheet program would run a cell that begins with one of these characters as a formula.
 FORMULA = ("=", "+", "-", "@")
 
 
@@ -57,7 +57,7 @@ def _state(prediction: Prediction) -> str:
 def _cell(value: str | float) -> str | float:
     """Return the value without line breaks.
 
-    A quote is added before a text that a spreadsheet could read as a formula.
+    If a spreadsheet could read the text as a formula, add a quote before it.
     """
     if isinstance(value, (int, float)):
         return value

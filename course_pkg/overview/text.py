@@ -51,7 +51,7 @@ def of(pair: tuple[float, float]) -> str:
 def answers(chapter: ChapterProgress) -> str:
     """Return the numbers of correct predictions and choices of a chapter as text.
 
-    Return "" if the student has compared neither predictions nor choices.
+    Return "" if the student has compared no predictions and no choices.
     """
     predicted = of(chapter.right) if chapter.right[1] else ""
     chosen = f"{of(chapter.chosen)} choices" if chapter.chosen[1] else ""
