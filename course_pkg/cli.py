@@ -1,8 +1,8 @@
 """Run the commands of `course`.
 
 Each package declares its commands in its module `commands.py`. This module imports only the standard library
-and the modules `commands.py`. Therefore, any Python interpreter can run this module before the set-up of the
-course. A command imports other modules when it runs.
+and the modules `commands.py`. Therefore, any Python interpreter can run it before the set-up of the course. A
+command imports other modules when it runs.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from course_pkg.site import commands as site
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-INSIDE = "COURSE_INSIDE"  # This variable is set if the environment's interpreter runs this module.
+INSIDE = "COURSE_INSIDE"  # This variable is set if the environment's Python interpreter runs this module.
 COMMANDS: dict[str, Command] = {
     **lab.COMMANDS,
     **overview.COMMANDS,
@@ -109,8 +109,8 @@ def _dispatch(arguments: Sequence[str]) -> int:
 def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
     """Create the missing parts of the environment, and set the environment's variables.
 
-    For a command that imports libraries, the Python interpreter of the virtual environment replaces this
-    process.
+    If the command imports libraries, replace this process by the Python interpreter of the virtual
+    environment.
     """
     from course_pkg.setup import Places, ensure, environment
 

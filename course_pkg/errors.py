@@ -78,7 +78,7 @@ class BrokenDefinition(InterfaceError):
     """
 
     def __init__(self, source: str, line: int, column: int, text: str, problem: str, remedy: str) -> None:
-        # Each tab is replaced by one space, so that the character ^ in the message is below the error.
+        # One space replaces each tab, so the character ^ in the message is below the error.
         shown = text.replace("\t", " ").rstrip()
         excerpt = f"\n    {shown}\n    {' ' * (column - 1)}^" if shown else ""
         super().__init__(f"{source}, line {line}, column {column}: {problem}; {remedy}{excerpt}")
@@ -149,7 +149,7 @@ class NotAMessageType(GraphError, TypeError):
 
 
 class CallError(GraphError):
-    """A service call ended without a response, and rospy defines no exception for this case."""
+    """A service call ended without a response, in a way for which rospy has no exception."""
 
 
 class CallTimeout(CallError):
@@ -213,7 +213,10 @@ class ToolMissing(CheckError):
 
 
 class CameraSilent(CourseError):
-    """The camera of a shop sends no messages, so it is not known whether a customer is at the counter."""
+    """The camera of a shop sends no messages.
+
+    Therefore, it is unknown whether a customer is at the counter.
+    """
 
 
 class PrinterFailed(CourseError):
@@ -261,7 +264,7 @@ class NoServiceSelected(PanelError):
 
 
 class CallInProgress(PanelError):
-    """The panel is already making a call, and makes only one call at a time."""
+    """The panel is already making a call, and it makes only one call at a time."""
 
 
 class DrawingFailed(PanelError):

@@ -10,7 +10,7 @@ def write_atomically(path: Path, content: str | bytes, encoding: str = "utf-8") 
     """Write `content` to the file at the path `path`, and create missing folders.
 
     During the write, another process reads either the complete old file or the complete new file. Raises
-    OSError if the file cannot be written, or UnicodeEncodeError if `encoding` cannot represent the text. In
+    OSError if the file cannot be written, and UnicodeEncodeError if `encoding` cannot represent the text. In
     both cases, the old file does not change.
     """
     data = content.encode(encoding) if isinstance(content, str) else content

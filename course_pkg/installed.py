@@ -10,7 +10,7 @@ import os
 from pathlib import Path
 
 RECORD = "installation.json"  # This file is in each complete version of a shared installation.
-# This folder is in the user's own folder, and contains the results, the settings of JupyterLab, and logs.
+# This folder is in the user's own folder. It contains the results, the settings of JupyterLab, and logs.
 DATA = ".course"
 
 
@@ -20,7 +20,7 @@ def version_folder(checkout: Path) -> Path | None:
 
 
 def own_folder(checkout: Path) -> Path:
-    """Return the folder with the user's notebooks and workspace: the checkout, unless it is installed.
+    """Return the folder with the user's notebooks and workspace. In a checkout, it is the checkout.
 
     For a shared installation, the result is the folder in the variable COURSE_HOME, or ~/ros-course.
     """

@@ -1,4 +1,4 @@
-"""Import the names of a package only on their first use, so that the import of the package is fast."""
+"""Import the names of a package on their first use; the import of the package itself is then fast."""
 
 from __future__ import annotations
 
