@@ -1,10 +1,10 @@
 """Interactive panels for the notebooks, such as the graph panel and the service panel.
 
 Each panel consists of a widget, a model of its state, and one ES module that runs in the browser. The model
-needs neither a browser nor a Jupyter kernel.
+needs no browser and no Jupyter kernel.
 
-This package imports a panel only when a program first uses the name of the panel, such as `GraphPanel`.
-Therefore, a program can import a model on a machine without ipywidgets or ROS.
+This package imports a panel only when a program first uses the panel's name, such as `GraphPanel`. Therefore,
+a program can import a model on a machine without ipywidgets or ROS.
 """
 
 from typing import TYPE_CHECKING

@@ -1,6 +1,6 @@
 """Joins the JavaScript files of a panel into one ES module, and its CSS files into one style sheet.
 
-A widget sends its JavaScript code to the browser as one string, but the source files are ES modules that
+A widget sends its JavaScript code to the browser as one string. However, the source files are ES modules that
 import each other. The function `module` inserts the code of the imported files, and removes the import
 statements.
 """

@@ -23,8 +23,8 @@ class Panel(anywidget.AnyWidget):
     """A widget that any thread may update.
 
     In a subclass, `front_end` is the path of the ES module, and `style_sheet` is the path of the style sheet.
-    A subclass overrides `received` to handle the messages of the page. A subclass that works only while a
-    page shows the panel also overrides `shown` and `hidden`.
+    A subclass overrides `received` to handle the messages of the page. A subclass also overrides `shown` and
+    `hidden` if it works only while a page shows the panel.
     """
 
     front_end: ClassVar[Path]
@@ -39,8 +39,8 @@ class Panel(anywidget.AnyWidget):
     )
 
     def __init__(self) -> None:
-        # A thread holds the lock `turn` while it handles a message from the page, and while it changes a
-        # trait. Without this lock, a change by another thread could be lost.
+        # A thread holds the lock `turn` while it handles a message from the page or changes a trait. Without
+        # this lock, a change by another thread could be lost.
         self.turn = threading.RLock()
         self._views: set[str] = set()
         super().__init__()
@@ -58,13 +58,13 @@ class Panel(anywidget.AnyWidget):
     def error_message(self) -> str:
         """Return the error message that the panel shows, or "" if there is none.
 
-        If several traits of `errors` have a message, the first message in the order of `errors` is returned.
+        If several traits in `errors` have a message, return the first one.
         """
         messages = (getattr(self, name, "") for name in self.errors)
         return next((each for each in messages if each and isinstance(each, str)), "")
 
     def shown(self) -> None:
-        """Start the work that the panel does only while a page shows the panel.
+        """Start the work that the panel does while a page shows it.
 
         The base class calls this method for each new view.
         """

@@ -1,8 +1,8 @@
 """Draws the still picture of a panel as an SVG without scripts, row by row from top to bottom.
 
 A program that displays a notebook puts several pictures into one page. Ids and style sheets of different
-pictures could conflict, so a picture contains neither. The colours are the colours of the light theme in
-look.css.
+pictures could conflict, so a picture contains no ids and no style sheet. The colours are the colours of the
+light theme in look.css.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ EDGES = 16.0  # distance in px between the border of the picture and its content
 SIZE, SMALL = 13.0, 12.0  # font sizes in px
 LEADING = 1.5  # height of a line divided by the font size
 MONO_LETTER = 0.61  # width of a letter of the monospaced font divided by the font size
-# This dict contains the widths of letters, divided by the font size. The font is DejaVu Sans, because a
-# viewer of the picture may use this font, and the other possible fonts are narrower.
+# This dict contains the widths of letters, divided by the font size. The font is DejaVu Sans. A viewer of the
+# picture may use this font, and the other possible fonts are narrower.
 WIDTHS = {
     **dict.fromkeys("iljI'|.,:; ", 0.32),
     **dict.fromkeys('frt()[]/`-!"', 0.41),
@@ -195,7 +195,7 @@ class Paper:
         self._parts.append(part)
 
     def svg(self, description: str = "") -> str:
-        """Return the picture as an SVG with one element per line, so that diffs are readable."""
+        """Return the picture as an SVG with one element per line; diffs are then readable."""
         width, height = number(self.width), number(self.y + 12)
         root = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", "viewBox": f"0 0 {width} {height}"})
         root.attrib |= {"width": width, "height": height, "role": "img"}
@@ -222,7 +222,7 @@ def prose(text: str) -> str:
 
 
 def cut(text: str, style: Style, width: float) -> str:
-    """Return the text; if it is wider than the width (px), shorten the text, and end it with an ellipsis."""
+    """Return the text; if it is wider than `width` (px), shorten it and end it with an ellipsis."""
     if style.width(text) <= width:
         return text
     while text and style.width(text + "…") > width:

@@ -15,8 +15,8 @@ class Poller(Generic[Value]):
     `every` is the time in s between two calls.
 
     The poller calls the function `changed` with each value that differs from the previous value. If `read`
-    raises an error, the poller calls the function `failed` with this error, unless the previous call of
-    `read` raised an error with the same text. After start(), `read`, `changed` and `failed` run on the
+    raises an error, the poller calls the function `failed` with this error. It does not call `failed` again
+    while `read` raises errors with the same text. After start(), `read`, `changed` and `failed` run on the
     separate thread.
     """
 
@@ -44,7 +44,7 @@ class Poller(Generic[Value]):
     def stop(self) -> None:
         """Tell the thread to stop; the thread may call the function `read` once more.
 
-        The method does not wait until the thread ends, because `read` may need a lock that the caller has
+        The method does not wait for the end of the thread, because `read` may need a lock that the caller has
         acquired.
         """
         if self._stop is not None:

@@ -1,7 +1,7 @@
 """The still picture of each panel, for pages without widgets.
 
-A picture depends only on the traits of the panel. Therefore, a picture can be drawn later, outside the
-kernel, when a notebook is saved.
+A picture depends only on the traits of the panel. It can therefore be drawn outside the kernel, when a
+notebook is saved.
 """
 
 from __future__ import annotations

@@ -64,7 +64,7 @@ class Store(Generic[Record]):
     def write(self, record: Record) -> Record:
         """Store a record, and return it; an earlier record with the same key is replaced.
 
-        A lock on the file ensures that records from two kernels are both saved. Raises the same errors as
+        The file has a lock: if two kernels write records, both records are saved. Raises the same errors as
         `read`, and OSError if the file cannot be written.
         """
         with locked(self.path.parent):

@@ -30,7 +30,7 @@ class CaseRecord:
     `key` is the name of the fault, and `tries` is the number of answers.
 
     `first` is True if the first answer was right, and `solved` is True if any answer was right. `shown` is
-    True if the student opened the solution before giving a right answer.
+    True if the student opened the solution before the first right answer.
     """
 
     key: str
@@ -91,7 +91,7 @@ def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
 def _could_be(fault: Fault, other: Fault) -> bool:
     """Return whether the diagnosis of `other` is a useful wrong choice for `fault`.
 
-    Such a diagnosis is wrong for the fault, but the two faults have similar symptoms.
+    Such a diagnosis is wrong for `fault`, but the symptoms of both faults are similar.
     """
     same = other.name == fault.name or other.name in fault.unlike or fault.name in other.unlike
     return other.look.split()[0] == fault.look.split()[0] and not same

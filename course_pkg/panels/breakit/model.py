@@ -144,7 +144,7 @@ class LabModel(Generic[SceneType]):
     def play(self, name: str, tools: Iterable[str]) -> None:
         """Cause the fault `name`, run the tools, and undo the fault.
 
-        A saved page, which has no kernel, then shows the outputs of the tools.
+        A saved page, which has no kernel, can show the outputs of the tools.
         """
         number = next(number for number, case in self._cases.items() if case.fault.name == name)
         self.open(number)

@@ -17,7 +17,7 @@ class ToolUse(TypedDict):
 
 
 class Verdict(TypedDict, total=False):
-    """The verdict on the student's answer; it is also used to show the solution.
+    """The verdict on the student's answer; the panel also uses this data to show the solution.
 
     `server` is the text of the server's program, if the case has a server.
     """

@@ -17,12 +17,13 @@ HERE = Path(__file__).parent
 
 
 class BreakIt(Panel):
-    """A panel with cases: each case causes a fault on the running graph, and the student finds this fault.
+    """A panel with cases. Each case causes a fault on the running graph, and the student finds this fault.
 
     `chosen` contains names of faults, or of the groups "serving", "calling" and "masters". If `chosen` is
     empty, the panel shows all cases. The panel undoes a fault when another case begins, when no page shows
     the panel any more, and when the kernel ends. The page receives the solution only after the right answer,
-    or when the student opens the solution. Raises UnknownFault if a name is neither a fault nor a group.
+    or after the student has opened the solution. Raises UnknownFault for a name that is not a fault and not a
+    group.
     """
 
     front_end: ClassVar[Path] = HERE / "breakit.js"

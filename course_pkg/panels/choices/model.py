@@ -12,7 +12,7 @@ from course_pkg.state import now
 
 @dataclass(frozen=True)
 class Case:
-    """A situation, the option that is expected for this situation, and the reason."""
+    """A situation, the expected option for this situation, and the reason."""
 
     text: str
     answer: str
@@ -37,8 +37,7 @@ class ChoiceRecord:
 
     `compared` is the time (ISO 8601 in UTC) when the reasons were first shown; it is "" before that time.
     `first` contains the choices at the time `compared`; later choices do not change `first`. `fit` is the
-    number of choices in `first` that were expected options. `shown` is True while the panel shows the
-    reasons.
+    number of expected options in `first`. `shown` is True while the panel shows the reasons.
     """
 
     key: str
@@ -54,7 +53,7 @@ class ChoiceRecord:
     def standing(self) -> str:
         """A sentence that states how many cases have a choice.
 
-        After compare(), the sentence states how many of the first choices were expected options.
+        After compare(), it states how many of the first choices were expected options.
         """
         if not self.compared:
             return f"{len(self.chosen)} of {self.cases} cases have an answer."
@@ -123,7 +122,7 @@ class ChoicesModel:
     def compare(self) -> ChoiceRecord:
         """Show the reasons if the student has chosen an option for every case.
 
-        The first time, this method also stores the choices in the field `first` of the record.
+        The first call also stores the choices in the field `first` of the record.
         """
         record = self.record
         if "" in self.chosen:

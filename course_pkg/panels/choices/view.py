@@ -38,7 +38,7 @@ class _State(TypedDict):
 class Choices(Panel):
     """A table of cases: the student chooses an option for each case, and then reads the reasons.
 
-    The page does not receive the expected options until the panel shows the reasons.
+    The page receives the expected options only when the panel shows the reasons.
     """
 
     front_end: ClassVar[Path] = HERE / "choices.js"

@@ -1,4 +1,4 @@
-"""A message as a form: a string for each field, the errors in these strings, and a table of the values."""
+"""A message as a form: a string for each field, the errors in these strings, and a table of values."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TypeAlias, TypedDict
 from course_pkg.errors import FieldError
 from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-# An array with more than `CONTROLS` elements is shown as one line of text, without separate input fields.
+# An array with more than `CONTROLS` elements has no separate input fields, but one line of text.
 CONTROLS = 16
 LIMIT = 200  # A table has at most this many rows.
 ELEMENTS = 32  # A table shows at most this many elements of an array.
@@ -20,7 +20,7 @@ Values: TypeAlias = Mapping[str, Plain]
 
 
 class Check(TypedDict, total=False):
-    """The result of checking a form: an error for each wrong field, or commands that send the form's values.
+    """The result of checking a form: the error of each wrong field, or commands that send the values.
 
     `refused` counts the clicks that had no effect because a field was wrong. The page compares `refused` with
     the previous value to notice such a click.
@@ -103,9 +103,9 @@ def correction(error: FieldError) -> str:
 
 
 def compact(fields: Sequence[Field], strings: Mapping[str, StringTree]) -> Draft:
-    """Return a copy of the strings: each time is one number of seconds, and each long array is one line.
+    """Return a copy of the strings in which each time is one number of seconds, and each long array one line.
 
-    Only a long array of numbers or booleans is changed into one line of text.
+    Only long arrays of numbers or booleans become one line of text.
     """
     return {field.name: _compact(field, strings[field.name]) for field in fields}
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 # The rate is measured over at most `LONG` seconds. A change of the rate is noticed after `SHORT` seconds.
 LONG, SHORT = 30.0, 3.9
-LEAST = 1.5  # A rate that was measured over a shorter time than this (s) is not reliable.
+LEAST = 1.5  # A rate is reliable only if it was measured over at least this time (s).
 LATE = 0.05  # A busy node may report its counts with a delay of up to this time in s.
 SHOWN = 12  # The page lists at most this many connections of a topic, or callers of a service.
 UNCONNECTED = "not connected: check that both nodes use the same type"
@@ -51,7 +51,7 @@ class ActivityState(TypedDict, total=False):
 
     `notes` are the short texts below the names of topics, with at most 12 letters each. `details` contains
     pairs of a label and a value. `callers` lists the nodes that called each service. If a server does not
-    report its callers, `callers` has no entry for its service. `calls` contains the lines to draw.
+    report its callers, its service has no entry in `callers`. `calls` contains the lines to draw.
     """
 
     notes: dict[str, str]
@@ -70,7 +70,7 @@ class RateMeter:
     def read(self, at: float, messages: int) -> None:
         """Add a count: `messages` is the number of messages on the connection until the time `at` (s)."""
         if self._counts and messages < self._counts[-1][1]:
-            # The count is smaller than the previous count: the publisher was restarted, and its new
+            # The count is smaller than the previous count. The publisher was restarted, and its new
             # connection has the same id.
             self._counts.clear()
         self._counts.append((at, messages))
@@ -108,7 +108,7 @@ class RateMeter:
 
 
 def plainest(rate: float, tolerance: float) -> float:
-    """Return the rate with as few significant digits (1 to 3) as the allowed error permits.
+    """Round the rate to as few significant digits (1 to 3) as possible.
 
     The error is at most `tolerance`.
     """
@@ -166,7 +166,7 @@ class _Ends:
 
 
 class GraphActivity:
-    """Turns repeated counts of messages and calls into an ActivityState for the page."""
+    """Converts repeated counts of messages and calls into an ActivityState for the page."""
 
     def __init__(self) -> None:
         self.seen: Activity | None = None
@@ -185,8 +185,8 @@ class GraphActivity:
         """Return the ActivityState for the page.
 
         `alive` contains the names of all nodes on the graph, including nodes that the panel does not show.
-        The function `box` returns the key of the visible shape for the key of any shape. For a shape in a
-        folded namespace, the visible shape is the box of the namespace.
+        The function `box` returns the key of the visible shape for the key of any shape. A shape in a folded
+        namespace is not visible; its visible shape is the box of the namespace.
         """
         ends = _Ends(picture)
         topics = {each.key: self._topic(each, ends) for each in picture.shapes if each.kind is Kind.TOPIC}

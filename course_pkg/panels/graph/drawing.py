@@ -15,8 +15,8 @@ MARGIN = 12.0
 ARROW = 9.0  # An arrowhead is this many px long.
 CORNER = 12.0  # Each of the two pointed ends of a service's shape is this many px wide.
 CARD = 4.0  # A folded namespace is drawn as two rectangles with this offset (px).
-# ABOVE and BELOW are the distances (px) from the middle of a shape to its name, and to the note below the
-# name.
+# ABOVE is the distance (px) from the middle of a shape to its name. BELOW is the distance to the note below
+# the name.
 ABOVE, BELOW = -7.0, 10.0
 TITLE = 13.0  # The middle of a frame's name is this many px below the top of the frame.
 
@@ -94,8 +94,8 @@ class _Drawing:
         mark = "▸ " if shape.kind is Kind.SPACE else ""
         name = SubElement(group, "text", _numbers(x=x, y=y + (ABOVE if low else 0)))
         name.text = mark + placed.label
-        # Without a space after the name, a screen reader joins the last word of the name and the first word
-        # of the note.
+        # Without a space after the name, a screen reader joins the name's last word and the note's first
+        # word.
         name.tail = " "
         if low:
             under = SubElement(group, "text", {"class": "ros-note", **_numbers(x=x, y=y + BELOW)})

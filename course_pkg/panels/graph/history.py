@@ -1,4 +1,4 @@
-"""Records what a graph panel shows, so that a page without a kernel can play the recording."""
+"""Records what a graph panel shows; a page without a kernel can then play the recording."""
 
 from __future__ import annotations
 

@@ -87,9 +87,9 @@ def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
     """Return the layout that graphviz computes for a picture.
 
     The arrows point from left to right. If this layout is too wide for a page, the function also computes a
-    layout with arrows from top to bottom. This second layout is returned only if its letters on the page are
-    more than 1.1 times as large. Raises DrawingFailed if graphviz is missing, fails, or takes longer than
-    `timeout` s.
+    layout from top to bottom. The second layout is returned only if its letters on the page are more than 1.1
+    times as large as in the first layout. Raises DrawingFailed if graphviz is missing, fails, or takes longer
+    than `timeout` s.
     """
     if not picture.shapes:
         return Layout()
@@ -211,13 +211,13 @@ def _size(shape: Shape) -> tuple[float, float]:
 def _note(shape: Shape) -> str:
     """Return the second line of text in a shape.
 
-    For a folded namespace, this line states how many nodes, topics and services it contains. For any other
+    For a folded namespace, this line states the number of its nodes, topics and services. For any other
     shape, the line is empty.
     """
     return dict(shape.facts).get("holds", "") if shape.kind is Kind.SPACE else ""
 
 
 def _label(name: str) -> str:
-    """Return the name; if the name is too long, return its beginning and its end, with "…" between them."""
+    """Return the name; shorten a long name to its beginning and its end, with "…" between them."""
     half = LONGEST // 2
     return name if len(name) <= LONGEST else f"{name[: half - 1]}…{name[-half:]}"

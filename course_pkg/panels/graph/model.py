@@ -1,4 +1,4 @@
-"""The state of a graph panel: a drawing and details, which are made from snapshots of the ROS graph.
+"""The state of a graph panel. The panel makes a drawing and details from snapshots of the ROS graph.
 
 This module does not need ROS.
 """
@@ -65,7 +65,7 @@ class Scene(TypedDict):
 
 
 def facts(picture: Picture, describe: Describe) -> list[Fact]:
-    """Return the details of each shape and of each namespace; shapes in folded namespaces are included."""
+    """Return the details of each namespace and of each shape, also of shapes in folded namespaces."""
     spaces = [space(name, picture, members) for name, members in namespaces(picture).items()]
     known: dict[Pair, list[Pair]] = {}
     return [_entry(each, _fields(each, describe, known)) for each in (*picture.shapes, *spaces)]
@@ -115,7 +115,7 @@ def _entry(shape: Shape, fields: list[Pair]) -> Fact:
 
 
 class GraphModel:
-    """Turns snapshots of the ROS graph into a drawing; a new drawing is made only after a change.
+    """Converts snapshots of the ROS graph into a drawing; it makes a new drawing only after a change.
 
     The model calls the function `changed` with the keyword arguments `drawing` (SVG, or "" if graphviz cannot
     draw), `facts` (the details of each shape and namespace), `spaces` (the shown namespaces), `activity` (see
@@ -163,7 +163,7 @@ class GraphModel:
                 self._changed(activity=state)
 
     def lose(self, reason: str) -> None:
-        """Keep the last picture, and show the reason why the panel cannot read the graph."""
+        """Show the last picture, and the reason why the panel cannot read the graph."""
         with self._turn:
             self._shown = None
             self.scene = {**self.scene, "trouble": reason}
@@ -191,7 +191,7 @@ class GraphModel:
         """Draw the picture if it differs from the previous picture.
 
         The page must not wait for graphviz, so the method releases the lock while graphviz runs. If another
-        thread begins to draw during that time, this call discards its own result.
+        thread begins to draw during this time, this call discards its own result.
         """
         with self._turn:
             if self.snapshot is None:

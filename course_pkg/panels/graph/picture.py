@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from course_pkg.ros import Snapshot
 
-CROWD = 30  # If a picture has more shapes than this, namespaces are folded until the reader unfolds them.
+CROWD = 30  # In a picture with more shapes than this, namespaces are folded until the reader unfolds them.
 NOISE_NODES = frozenset({"/rosout"})
 NOISE_TOPICS = frozenset({"/rosout", "/rosout_agg"})
 NOISE_SERVICES = ("/get_loggers", "/set_logger_level")
@@ -178,11 +178,11 @@ def _ends(lines: Iterable[Line]) -> set[str]:
 
 
 def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
-    """Return the picture with some namespaces as folded boxes, and with frames around all other namespaces.
+    """Return a copy of the picture: some namespaces are folded boxes, and all others have frames.
 
     The keys of `choices` are namespaces; the value is True if the reader folded the namespace, and False if
-    the reader unfolded it. A namespace that is not in `choices` is folded if the picture has more than
-    `CROWD` shapes and at most half of all shapes are in this namespace.
+    the reader unfolded it. Other namespaces are folded if the picture has more than `CROWD` shapes. However,
+    a namespace with more than half of all shapes is not folded.
     """
     spaces = namespaces(picture)
     crowded = len(picture.shapes) > CROWD
@@ -192,7 +192,7 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
         if choices.get(name, crowded and 2 * len(members) <= len(picture.shapes))
     }
     # A shape in two folded namespaces belongs to the box of the outer namespace. The names are sorted from
-    # long to short, so the outer namespace replaces the inner namespace in `box`.
+    # long to short. Therefore, the outer namespace replaces the inner namespace in `box`.
     box = {key: name for name in sorted(closed, key=len, reverse=True) for key in spaces[name]}
 
     def shown(key: str) -> str:
@@ -228,7 +228,7 @@ def space(name: str, picture: Picture, members: frozenset[str]) -> Shape:
     inside = [each for each in picture.shapes if each.key in members]
     kinds = {kind: [each.name for each in inside if each.kind is kind] for kind in PLURALS}
     facts = [("holds", ", ".join(_count(kind, len(names)) for kind, names in kinds.items() if names))]
-    # The details of a namespace do not list the topics, because activity.py adds the topics with their rates.
+    # The details of a namespace do not list the topics; activity.py adds the topics with their rates.
     facts += [(PLURALS[kind], ", ".join(kinds[kind])) for kind in (Kind.NODE, Kind.SERVICE) if kinds[kind]]
     if lost := [each.name for each in inside if not each.reachable]:
         facts.append(("does not answer", ", ".join(lost)))

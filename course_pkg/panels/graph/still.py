@@ -27,7 +27,7 @@ NUMBERED = re.compile(r"_\d+_\d{10,}")
 
 
 def still(state: State) -> str:
-    """Return the picture without rates and recent calls, because these values differ in each run."""
+    """Return the picture without rates and recent calls; these values differ in each run."""
     drawing, trouble = state.get("drawing", ""), state.get("trouble", "")
     if not drawing:
         return _without_drawing(state, trouble)

@@ -26,8 +26,8 @@ class GraphPanel(Panel):
     The panel updates the picture while a page shows the panel. If `live` is False, the panel keeps the first
     picture. The picture shows the rates of topics and the latest callers of services. If `noise` is True, the
     picture also shows /rosout and the logger services of every node. `node` is the node in the kernel, by
-    default the node that join() created; the reader can hide this node. The panel records all pictures, so
-    that a page without a kernel can play them.
+    default the node that join() created; the reader can hide this node. The panel records all pictures; a
+    page without a kernel can then play them.
     """
 
     front_end: ClassVar[Path] = HERE / "graph.js"
@@ -70,7 +70,7 @@ class GraphPanel(Panel):
             self._counts.start()
 
     def hidden(self) -> None:
-        """Stop reading the graph, and send the recording to the page, for saved pages without a kernel."""
+        """Stop reading the graph, and send the recording to the page; a saved page can then play it."""
         self._snapshots.stop()
         self._counts.stop()
         with self.turn:
@@ -106,7 +106,7 @@ class GraphPanel(Panel):
     def _look(self) -> Snapshot:
         """Return a snapshot of the graph.
 
-        If a node does not answer, take a second snapshot, because the machine may be busy.
+        If a node does not answer, take a second snapshot: the machine may be busy.
         """
         before, now = self._model.snapshot, look()
         awake = {node.name for node in before.nodes if node.reachable} if before else set()

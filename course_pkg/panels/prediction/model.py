@@ -11,11 +11,11 @@ from course_pkg.state import now
 
 @dataclass(frozen=True)
 class Prediction:
-    """A prediction with the student's answer and, after the comparison, the real result.
+    """A prediction: the student's answer and, after the comparison, the real result.
 
     `answered` and `compared` are times (ISO 8601 in UTC), or "" before the answer and the comparison.
     `answer` is the latest answer. `first` is the answer at the time of the comparison. If `answer` differs
-    from `first`, the student changed the answer later.
+    from `first`, the student changed the answer after the comparison.
     """
 
     key: str

@@ -1,7 +1,7 @@
 """The widgets for predictions: a question, a comparison, and a table.
 
-The text/plain output of the widgets is the same for every student, so the outputs of two notebooks can be
-compared. Only the widget shows the student's answer.
+The text/plain output of the widgets is the same for every student. Therefore, the outputs of two notebooks
+can be compared. Only the widget shows the student's answer.
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ LOGGER_SERVICES = ("/get_loggers", "/set_logger_level")
 
 
 class Caller(Protocol):
-    """Calls one service; another thread can end the running call with the method `cancel`."""
+    """Calls one service; another thread can end the running call with `cancel`."""
 
     def call(self, request: genpy.Message, /, *, timeout: float) -> genpy.Message:
         """Send a request message and return the response message; wait for at most `timeout` s."""
@@ -71,8 +71,8 @@ class ServiceModel:
     """Selects a service, checks the form, calls the service, and stores a history of the calls.
 
     After each change, and in each phase of a call, the model calls the function `changed` with some of the
-    keyword arguments `services`, `form`, `draft`, `check`, `outcome` and `history`. The model holds the lock
-    `turn` while it changes its state, but not while it waits for a response.
+    keyword arguments `services`, `form`, `draft`, `check`, `outcome` and `history`. A thread holds the lock
+    `turn` while it changes the model's state, but not while it waits for a response.
     """
 
     def __init__(
@@ -124,7 +124,7 @@ class ServiceModel:
                 self._changed(outcome={"phase": "idle"}, **self._fresh())
 
     def edit(self, draft: Draft) -> None:
-        """Store the texts of the form; report the errors in them, or the commands that make this call."""
+        """Store the texts of the form; publish the errors in them, or the commands that make this call."""
         with self._turn:
             if self.form:
                 self.draft = draft
@@ -154,10 +154,10 @@ class ServiceModel:
         threading.Thread(target=self._finish, args=(call,), daemon=True, name="panel-call").start()
 
     def call(self, deadline: str) -> Outcome:
-        """Call the service with the request in the form, on the thread that calls this method.
+        """Call the service on the calling thread, with the request in the form.
 
-        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin. Raises the error of the
-        call if the call fails.
+        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin. A failed call raises its
+        error.
         """
         with self._turn:
             form = self._need_form()

@@ -61,7 +61,7 @@ class Outcome(TypedDict, total=False):
 class Entry(TypedDict, total=False):
     """A call in the history: one line of text for the request, and one line for the response.
 
-    A recorded call also has `check` and `outcome`, because a page without a kernel shows them.
+    A recorded call also has `check` and `outcome`; a page without a kernel shows them.
     """
 
     phase: Phase

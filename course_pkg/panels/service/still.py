@@ -28,7 +28,7 @@ STATUS = {
 
 
 def still(state: State) -> str:
-    """Return the picture of the form and the latest response, without times, which differ in each run."""
+    """Return the picture of the form and the latest response, without times: times differ in each run."""
     form, trouble = state.get("form", {}), state.get("trouble", "")
     name = form.get("service", "")
     kind = f" of type {form['type']}" if form.get("type") else ""

@@ -26,9 +26,9 @@ class ServicePanel(Panel):
     """A form for calling any service on the graph.
 
     `service` is the name of the service. If `service` is None, the reader selects a service on the page.
-    `deadline` is the maximum time of a call in s. `kind` is the type of the service. `kind` is needed only
-    for a type that was made in the notebook and belongs to no package. While a page shows the panel, the
-    panel lists the services on the graph.
+    `deadline` is the maximum time of a call in s. `kind` is the type of the service. `kind` is necessary only
+    for a type that the notebook made and that belongs to no package. While a page shows the panel, the panel
+    lists the services on the graph.
     """
 
     front_end: ClassVar[Path] = HERE / "service.js"
@@ -76,8 +76,8 @@ class ServicePanel(Panel):
     def call(self, **values: Plain) -> genpy.Message | None:
         """Fill in the form, call the service, and return the response message.
 
-        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin. Raises the error of the
-        call if the call fails.
+        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin. A failed call raises its
+        error.
         """
         self._model.fill(values)
         self._model.call(self.deadline)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from course_pkg.panels.timeline.scene import Event, Scene
 
-# Events are drawn as one band if their widths and the distances between them are less than `CLOSE` px.
+# A picture shows events as one band if their widths and the distances between them are less than `CLOSE` px.
 CLOSE = 3.0
 MANY = 5  # A band contains at least this many calls or messages.
 CALLS, REQUESTS = "calls", "requests"

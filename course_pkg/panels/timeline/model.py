@@ -1,8 +1,8 @@
 """The data of a timeline for the page: one list for each property of the events, and the rows of each node.
 
 A saved page contains all these data, so their size is limited. If a recording has more than 4,000 events, the
-data contain the events of calls first, and then messages, up to this limit. In this case, a note for the
-reader states how many events are missing.
+data contain the events of calls before messages, up to this limit. A note then tells the reader how many
+events are missing.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 MOST = 4000  # The data contain at most this many events, which take about 200 kB in a saved page.
 KINDS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER, PUBLISH, CALLBACK)
 TICKS = 1e6  # The data contain times in whole microseconds; one second has this many microseconds.
-# The end of an event is `OPEN` if the event was not finished.
+# `OPEN` is the end of an event that was not finished.
 OPEN = -1
 
 
@@ -148,7 +148,7 @@ class _Thread:
 def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
     """Return the row and the depth of each event.
 
-    The depth is the number of earlier events in the same thread that had not ended when the event began.
+    The depth is the number of earlier events in the same thread that still ran when the event began.
 
     All events of a thread are in one row. Several threads can use the same row, one after another.
     """
@@ -157,7 +157,7 @@ def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
     for number, event in enumerate(events):
         nodes[event.node][event.thread].take(number, event)
     for threads in nodes.values():
-        free: list[float] = []  # For each row, the list contains the time from which the row is free.
+        free: list[float] = []  # The time at which each row becomes free.
         for thread in sorted(threads.values(), key=lambda each: each.start):
             row = next((row for row, end in enumerate(free) if end < thread.start), len(free))
             free[row : row + 1] = [thread.end]
@@ -166,7 +166,7 @@ def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
 
 
 def _place(thread: _Thread, row: int, events: Sequence[Event], rows: list[int], depths: list[int]) -> None:
-    around: list[float] = []  # The list contains the ends of the events in which the current event is nested.
+    around: list[float] = []  # The ends of the events that contain the current event.
     for number in sorted(thread.numbers, key=lambda each: (events[each].start, -_end(events[each]))):
         while around and around[-1] <= events[number].start:
             around.pop()
@@ -190,12 +190,12 @@ def arrows(events: Sequence[Event]) -> list[list[int]]:
 def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[int]]:
     """Return the arrows of one call or of one message.
 
-    The arrow of a response or an error goes from the end of the handler to the caller. If the caller had
-    already stopped waiting, there is no arrow for the response.
+    The arrow of a response or an error goes from the end of the handler to the caller. If the caller did not
+    wait any more, the response has no arrow.
     """
     found = [[message, callback] for message in part[PUBLISH] for callback in part[CALLBACK]]
     for handler in part[HANDLER]:
-        # If the client sent the request before the recording began, the arrow begins at the client's wait.
+        # If the client sent the request before the recording began, its arrow begins at the client's wait.
         found += [[caller, handler] for caller in (part[REQUEST] or part[WAIT])[:1]]
         answers = [number for number in (*part[RESPONSE], *part[ERROR]) if events[number].peer]
         found += [[handler, answer] for answer in answers if events[handler].end is not None]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from course_pkg.panels.paper import State
 
 HEAD, GAP = 22.0, 12.0  # The height of a node's name, and the distance between the rows of two nodes (px).
-# Each tuple in ROWS contains a maximum number of rows, the height of a row (px), and the distance between
-# rows (px).
+# Each tuple in ROWS contains three numbers: a maximum number of rows, the height of a row (px), and the
+# distance between rows (px).
 ROWS = ((16, 20.0, 3.0), (32, 12.0, 2.0), (52, 8.0, 2.0), (10**9, 4.0, 1.0))
 BLOCKED = ("lookup", "connect", "wait")
 

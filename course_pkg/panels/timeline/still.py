@@ -30,7 +30,7 @@ WAIT, WAIT_EDGE = "#fbe6e4", "#b0342c"
 CALLBACK, CALLBACK_EDGE = "#cfe0f7", "#3a6fb5"
 WORD, NAME = Style(11.0), Style(12.0, bold=True)
 NAMES = {"lookup": "look-up", "connect": "connect", "request": "request", "publish": "publish"}
-MARK = 14.0  # An event with a width of less than this (px) can be drawn as a small symbol instead of a bar.
+MARK = 14.0  # An event that is narrower than this (px) can be a small symbol instead of a bar.
 # This is the minimum distance in px between two arrows of messages (True) or of calls (False). Arrows that
 # are closer to each other are not drawn.
 APART = {True: 8.0, False: 3.0}
@@ -47,7 +47,7 @@ LEGEND = (
 
 
 def still(state: State) -> str:
-    """Draw the whole recording, and write below it which node waited for which node."""
+    """Draw the whole recording; below it, write which node waited for which node."""
     recorded = state["recorded"]
     said = sentences(recorded["waits"])
     paper = Paper(f"A timeline of {', '.join(lane['node'] for lane in recorded['lanes']) or 'no node'}")
@@ -130,7 +130,7 @@ class _Diagram:
         self.paper.add("polygon", points=points, fill=colour)
 
     def _draw_band(self, band: Band, top: float) -> None:
-        """Draw events that are too close to each other as one bar with the number of the events."""
+        """Draw several close events as one bar with the number of events."""
         fill, edge = _colours("wait" if band.what == "calls" else band.kind)
         x, y, wide = EDGES + band.left, top + band.top + band.height / 4, band.right - band.left
         bar = self.paper.box(x, y, wide, band.height / 2, fill=fill, edge=edge, rx=0)

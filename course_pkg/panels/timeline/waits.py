@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 
 class Wait(TypedDict):
-    """The calls of one node to one service, and the times that the node waited for the responses.
+    """The calls of one node to one service, and the time that the node waited for the responses.
 
-    `blocked` is the sum of these times in s, and `longest` is the longest of them. `open` is the number of
+    `blocked` is the total waiting time in s, and `longest` is the longest wait. `open` is the number of
     unfinished calls.
     """
 
@@ -51,7 +51,7 @@ class Waits(TypedDict):
 def waits_of(recording: Recording) -> Waits:
     """Return the waits of a recording.
 
-    A wait that is not finished is counted up to the end of the recording.
+    An unfinished wait is counted up to the end of the recording.
     """
     calls: dict[tuple[str, str], list[Event]] = defaultdict(list)
     streams: dict[tuple[str, str], list[Event]] = defaultdict(list)

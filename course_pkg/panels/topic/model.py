@@ -1,7 +1,7 @@
 """The state of a topic panel; this module does not need ROS.
 
-The publisher and the subscriber run in a separate process (the topic process), which receives commands from
-the panel and sends reports to the panel.
+The publisher and the subscriber run in a separate process, the topic process. The panel sends commands to
+this process and receives its reports.
 """
 
 from __future__ import annotations
@@ -218,7 +218,7 @@ class TopicModel:
     def _type_on_the_graph(self) -> str:
         """Return the name of the type that a publisher uses.
 
-        If there is no publisher, return the name of the type that the master knows.
+        Without a publisher, return the name of the type that the master stores.
         """
         types = [each["type"] for each in self._connections.get("publishers", ())]
         known = (*types, self._connections.get("type", ""))

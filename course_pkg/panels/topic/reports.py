@@ -1,4 +1,4 @@
-"""Turns reports of the topic process into texts: the latest messages, and sentences about the publisher."""
+"""Converts reports of the topic process into texts about the latest messages and the publisher."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.ros.topic.connections import ANY
 from course_pkg.ros.topic.reports import Connections, Figures, MessageReport, Peer, PublisherReport, Source
 from course_pkg.types import MessageType
 
-SHORT = 8  # This many digits of an MD5 are enough to distinguish two types.
+SHORT = 8  # The first digits of an MD5 sum, up to this number, are enough to distinguish two types.
 KEPT = 10  # The panel lists at most this many messages.
 LINES = 40  # The table of the latest message has at most this many rows.
 

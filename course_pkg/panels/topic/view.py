@@ -67,7 +67,7 @@ class TopicPanel(Panel):
                 self._model.process_began()
 
     def hidden(self) -> None:
-        """End the process in which the panel's node runs."""
+        """End the process of the panel's node."""
         with self.turn:
             process, self._process = self._process, None
         if process is not None:
@@ -88,7 +88,7 @@ class TopicPanel(Panel):
         return f"TopicPanel({self._topic!r})"
 
     def _look(self) -> None:
-        """Find the publishers and subscribers of the topic once, so that a saved page contains them, too."""
+        """Find the publishers and subscribers of the topic once; a saved page then contains them, too."""
         try:
             self._model.see(find_connections(MasterClient(master_uri()), self._topic))
         except GraphError as error:

@@ -1,9 +1,9 @@
-"""Derives the state of a turtle's pen from the turtle's poses, and from the colour under the turtle.
+"""Derives the state of a turtle's pen from the turtle's poses and the colour under the turtle.
 
-turtlesim publishes neither the state of the pen nor calls of `clear` and `reset`. However, turtlesim
-publishes the colour of the background or line under the turtle. If the turtle is slow or at rest, the
-published colour is the colour of the turtle's own line. If the turtle is fast, the turtle's own line has not
-reached the turtle yet, so the published colour is the colour of the background or of an older line.
+turtlesim does not publish the state of the pen, or calls of `clear` and `reset`. However, it publishes the
+colour of the background or line under the turtle. If the turtle is slow or at rest, the published colour is
+the colour of the turtle's own line. A fast turtle is ahead of its own line. The published colour is then the
+colour of the background or of an older line.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ HOME = 5.544444561  # The first turtle starts at this x and y (m).
 SLOW = 1.1
 BRISK = 3.0  # Up to this speed (m/s), the turtle is often above the line that it draws.
 STILL = 1e-4  # A turtle is at rest if it moves less than this (m) between two observations.
-# The colour is used only after `SETTLED` successive observations at rest, or after `SETTLED` successive
+# The colour is used only after `SETTLED` successive observations at rest, or `SETTLED` successive
 # observations in motion.
 SETTLED = 2
 
@@ -40,7 +40,7 @@ class Finding(Enum):
     """A conclusion from one observation: whether the pen was up, or the lines were erased."""
 
     NOTHING = "nothing"
-    UNDRAWN = "undrawn"  # The pen was up since the previous observation.
+    UNDRAWN = "undrawn"  # The pen has been up since the previous observation.
     CLEARED = "cleared"  # All lines were erased.
     RESET = "reset"  # All lines were erased, and the turtles are in their initial state.
 
@@ -57,7 +57,7 @@ class Pen:
     background: Colour
     colour: Colour | None = USUAL
     sure: bool = False
-    # `_moved` is True if the turtle has moved since the lines were erased or the pen was changed.
+    # `_moved` is True if the turtle has moved since the last change of the pen or deletion of the lines.
     _moved: bool = False
     _still: int = 0  # `_still` is the number of consecutive observations at rest.
     _going: int = 0  # `_going` is the number of consecutive observations in motion.

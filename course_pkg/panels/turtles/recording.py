@@ -1,4 +1,4 @@
-"""A recording of turtles, as rows that a page can draw and play. This module uses neither ROS nor Jupyter.
+"""A recording of turtles, as rows that a page can draw and play. This module does not need ROS or Jupyter.
 
 A row begins with a time (ms since the recording began) and a turtle (its index in `names`):
 
@@ -22,7 +22,7 @@ Change = tuple[int, int, str] | tuple[int, int, str, int]
 Row = Place | Change
 
 MOST = 6000  # A recording has at most this many rows, which take about 150 kB in a saved page.
-# A row is added only if x (mm), y (mm) or theta (mrad) has changed by at least the number in STEP.
+# A new row needs a change of x (mm), y (mm) or theta (mrad) by at least the number in STEP.
 STEP = (5, 5, 10)
 BACKGROUND: Colour = (69, 86, 255)
 UP = -1
@@ -41,7 +41,7 @@ class RecordingState(TypedDict):
 
 @dataclass
 class _Track:
-    """One turtle; `skipped` is its latest position if the turtle has moved too little for a new row."""
+    """One turtle. `skipped` is its latest position if the turtle has not moved enough for a new row."""
 
     number: int
     pen: Pen

@@ -10,7 +10,7 @@ from course_pkg.panels.paper import EDGES, FAINT, Paper, State, Style, number
 
 SIDE = 500.0  # width and height in px of the simulator's window
 WORLD = 11088.889  # width and height in mm of the area in which the turtles move
-PEN = "3"  # the default width of a pen in px; the simulator publishes the width on no topic
+PEN = "3"  # the default width of a pen in px; no topic contains the width
 # The head, feet and tail, which the panel draws under the shell of a turtle: centres and half axes (px).
 LIMBS = (
     (19, 0, 7, 5),
@@ -27,7 +27,7 @@ Row = Sequence[Any]  # The docstring of recording.py describes the rows.
 
 
 def still(state: State) -> str:
-    """Return a picture of the last state; if the simulator has ended, use the last state before its end."""
+    """Return a picture of the last state in which the simulator was running."""
     recorded = state["recorded"]
     # Leave out the turtles of a check; their names contain "/", because a check uses a random namespace.
     own = {turtle for turtle, name in enumerate(recorded["names"]) if "/" not in name}
@@ -103,7 +103,7 @@ def _played(rows: list[list[Any]]) -> tuple[list[tuple[int, list[tuple[float, fl
 
 
 def _extend(points: list[tuple[float, float]], point: tuple[float, float]) -> None:
-    """Add a point to a trail. If the new point continues a straight line, it replaces the last point."""
+    """Add a point to a trail. A new point that continues a straight line replaces the last point."""
     if len(points) > 1:
         (x1, y1), (x2, y2), (x3, y3) = points[-2], points[-1], point
         if (

@@ -24,7 +24,7 @@ HERE = Path(__file__).parent
 TYPES = ("turtlesim/Pose", "turtlesim/Color")
 POSE = struct.Struct("<5f")
 SEND = 0.1  # SEND is the time in s between two messages to the page.
-KEEP = 5.0  # If no page shows the panel, the panel saves its state every `KEEP` s.
+KEEP = 5.0  # While no page shows the panel, the panel saves its state every `KEEP` s.
 ALONE = 300.0  # The recording stops if no page has shown the panel for this time (s).
 
 
@@ -41,8 +41,8 @@ class TurtlePanel(Panel):
 
     The simulator of the turtles can be the course's own simulator or the original turtlesim.
 
-    The panel subscribes only to the topics of the poses and of the colour sensors. The panel derives the
-    states of the pens, and calls of `clear` and `reset`, from these messages. The recording begins when the
+    The panel subscribes only to the topics of the poses and of the colour sensors. From these messages, the
+    panel derives the states of the pens, and calls of `clear` and `reset`. The recording begins when the
     panel is created, even if no page shows the panel.
     """
 
@@ -58,7 +58,7 @@ class TurtlePanel(Panel):
         self._colours: dict[str, Colour] = {}
         self._lock = threading.Lock()
         self._page = Page.NONE
-        # `_sent` is the number of rows that were sent to the page, and `_edition` is the edition of these
+        # `_sent` is the number of rows that the page has received, and `_edition` is the edition of these
         # rows.
         self._sent = self._edition = 0
         self._last_sent = self._last_kept = self._left = self._began
@@ -72,7 +72,7 @@ class TurtlePanel(Panel):
         self._send_all()
 
     def hidden(self) -> None:
-        """Save the recording; if no page shows the panel again, the recording stops after `ALONE` seconds."""
+        """Save the recording. If no page shows the panel for `ALONE` seconds, the recording stops."""
         self._page, self._left = Page.NONE, time.monotonic()
         self._keep()
 

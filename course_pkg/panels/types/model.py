@@ -47,8 +47,8 @@ NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH. Therefore, the pane
 class FieldNode(TypedDict):
     """A field.
 
-    If the field is a message or a time, `fields` contains the nested fields. If the field is an array of
-    messages or times, `fields` contains the nested fields of one element.
+    If the field is a message or a time, `fields` contains the nested fields. For an array of messages or
+    times, `fields` contains the nested fields of one element.
     """
 
     name: str
@@ -95,7 +95,7 @@ class PackageTypes(TypedDict):
     msg: list[str]
 
 
-# A service or a topic that uses a type: the name of the service or topic, and the names of the nodes in each
+# A service or a topic that uses a type. It contains the name of the service or topic, and the nodes in each
 # role.
 Use = dict[str, str | list[str]]
 Offers = dict[DefinitionKind, dict[str, list[Use]]]
@@ -174,7 +174,7 @@ def offers(snapshot: Snapshot) -> Offers:
 
 
 class TypeModel:
-    """Lists all types, shows one type, and lists the services or topics with this type.
+    """Lists all types, shows one type, and lists the services or topics of this type.
 
     The model calls the function `changed` with the keyword arguments `packages` (the types of each package),
     `described` (the open type), and `offers` (the services and topics of each type on the graph).

@@ -15,12 +15,11 @@ from course_pkg.ros import Snapshot, look
 
 HERE = Path(__file__).parent
 PAUSE = 3.0  # PAUSE is the time in s between two checks of the files.
-# Reading all packages is slow on a machine with many packages. Therefore, at most 1 / `SHARE` of the time is
-# used for reading the packages.
+# Reading all packages is slow on a machine with many packages. Therefore, reading the packages takes at most
+# 1 / `SHARE` of the time.
 SHARE = 50
 
-# A tuple `Files` contains the names of all types, and the time (ns) when the file of the open type was
-# written.
+# A tuple `Files` contains the names of all types, and the modification time (ns) of the open type's file.
 Files = tuple[Catalogue, int]
 
 
@@ -44,7 +43,7 @@ class TypeBrowser(Panel):
         super().__init__()
         self._name = name
         self._known: Catalogue = ((), ())
-        # The packages are not read again before this time (s, as in time.monotonic()).
+        # The panel reads the packages again only after this time (s, time.monotonic()).
         self._not_before = 0.0
         self._model = TypeModel(self.publish, turn=self.turn)
         self._graph: Poller[Snapshot] = Poller(look, self._seen, self._failed)

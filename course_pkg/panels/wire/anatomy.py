@@ -31,7 +31,8 @@ from course_pkg.types.numbers import float32
 
 ERROR = 400  # At most this many characters of an error message are shown.
 ITEMS = 8  # Only this many elements at the beginning of an array are shown separately.
-# Format characters of `struct` for signed integers; capital letters are for unsigned integers.
+# Format characters of `struct` for signed integers; a capital letter is for the unsigned integer of this
+# size.
 CODES = {1: "b", 2: "h", 4: "i", 8: "q"}
 FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
 
@@ -80,7 +81,7 @@ def _frames(stream: bytes, extra: int) -> Iterator[Frame]:
 def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
     """Return the frame that begins at the offset `at`.
 
-    The frame begins with `extra` bytes (1 for the ok byte of a reply), and then the length field follows.
+    The frame begins with `extra` bytes (1 for the ok byte of a reply); then the length field follows.
     """
     if at >= len(stream):
         return None
@@ -204,8 +205,8 @@ def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
             before = reader.at
             _field(reader, item, name)
             if reader.at == before:
-                # An element without fields has no bytes. The loop ends here, because a wrong number of such
-                # elements in the data could make the loop very long.
+                # An element without fields has no bytes. The loop ends here: a wrong number of such elements
+                # in the data could make the loop very long.
                 return
     else:
         reader.take(count * _format(item)[1], RAW, name)

@@ -31,12 +31,12 @@ _Ends = TypedDict("_Ends", {"from": str, "to": str})
 class Step(_Ends):
     """One step of a call, such as the connection or the request.
 
-    `ms` is the time after the first step, `says` explains the step, and `bad` is True if the step is an
+    `ms` is the time in ms since the first step. `says` explains the step. `bad` is True if the step is an
     error.
 
-    `size` is the number of bytes of the step, and `pieces` describes these bytes. A request to the master, or
-    the master's response, has `text` instead of `pieces`. `connection` is the number of the connection, or 0
-    if the call has only one connection.
+    `size` is the number of bytes of the step, and `pieces` describes these bytes. Requests to the master and
+    its responses have `text` instead of `pieces`. `connection` is the number of the connection, or 0 if the
+    call has only one connection.
     """
 
     title: str

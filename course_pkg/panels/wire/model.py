@@ -39,7 +39,7 @@ def state(wire: Wire, find: FindType = service_type) -> WireState:
     """Return the data of a recording for the page.
 
     The function `find` returns the service type with a given name. `find` is called if the recording does not
-    contain the type that the server names in its connection header.
+    contain the type with the name in the server's connection header.
     """
     start = min((each.opened for each in _all(wire)), default=0.0)
     steps = list(_look_up(wire, start))

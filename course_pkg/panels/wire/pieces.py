@@ -76,8 +76,7 @@ class Reader:
         self.depth = 0
         self.pieces: list[Piece] = []
         self._silent = 0
-        # All bytes from the offset `_folded` on become one piece, because the reader already has `MOST`
-        # pieces.
+        # The reader already has `MOST` pieces; all bytes from the offset `_folded` on become one piece.
         self._folded: int | None = None
 
     @property
@@ -153,5 +152,5 @@ class Reader:
 
 
 def shortened(text: str, most: int = TEXT) -> str:
-    """Return the text; a text longer than `most` characters is cut and ends with "…"."""
+    """Return the text; cut a text that is longer than `most` characters, and end it with "…"."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

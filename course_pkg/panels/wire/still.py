@@ -27,7 +27,7 @@ from course_pkg.panels.paper import (
 ENDS = {"client": 100.0, "server": 440.0, "master": 660.0}
 ROW = 34.0  # A step is this many px high.
 MOST, BYTES = 24, 8  # A step shows at most `MOST` pieces, and a piece shows at most `BYTES` bytes.
-# A fixed text replaces each address, because the ports differ in each run.
+# A fixed text replaces each address: the ports differ in each run.
 ADDRESS = re.compile(r"(?:rosrpc://|http://)?[\w.-]+:\d{4,5}\b/?")
 SMALL = Style(12.0)
 DETAILED = ("Request", "Response", "Error")

@@ -56,7 +56,7 @@ class WireView(Panel):
         return self._bytes(client=False)
 
     def error_message(self) -> str:
-        """Return the error of the panel itself; if the panel has no error, return the error of the call."""
+        """Return the error of the panel itself or, if there is none, the error of the call."""
         return super().error_message() or str(self.exchange.get("outcome", ""))
 
     def _bytes(self, *, client: bool) -> bytes:
