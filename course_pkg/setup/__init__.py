@@ -1,6 +1,6 @@
-"""Set up what is missing: the distribution's packages, the virtual environment, the catkin workspace.
+"""Create what is missing: the distribution's packages, the virtual environment, and the catkin workspace.
 
-This package uses only the standard library, because the set-up installs all other libraries.
+This package uses only the standard library: it installs all other libraries itself.
 """
 
 from course_pkg.setup import environment

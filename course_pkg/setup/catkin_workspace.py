@@ -101,7 +101,7 @@ def _build_environment(places: Places) -> dict[str, str]:
 
 
 def _write_path_file(places: Places) -> None:
-    """Write a .pth file, so that other programs, such as editors, find the package and its types."""
+    """Write a .pth file; other programs, such as editors, then find the package and its types."""
     for packages in places.venv.glob("lib/python3*/site-packages"):
         paths = environment.python_path(places)
         write_atomically(packages / "course_pkg.pth", "".join(f"{path}\n" for path in paths))

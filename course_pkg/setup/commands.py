@@ -18,9 +18,9 @@ class Command(NamedTuple):
 
     The object is created before the set-up, when libraries may be missing. Therefore, only the function `run`
     may import other modules. `needs` lists what the set-up must provide first, for example "course" and
-    "grade". A command that imports libraries needs "libraries" and runs with the interpreter of the virtual
+    "grade". A command that imports libraries needs "libraries". It runs with the interpreter of the virtual
     environment. In the students' edition, a command that needs "solutions" ends with an error message. If
-    `rest` is not empty, all arguments are passed to another program, and `rest` describes them in the usage.
+    `rest` is not empty, another program gets all arguments; in the usage, `rest` describes them.
     """
 
     summary: str

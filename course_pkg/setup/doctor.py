@@ -149,9 +149,9 @@ def _answering(uri: str, host: str, port: int) -> Finding:
 
 
 def _leftovers(places: Places) -> Iterator[Finding]:
-    """Find processes of this checkout that are still running although their parent has ended.
+    """Find running processes of this checkout without a parent process.
 
-    If a process is killed with SIGKILL, the supervisor of a child normally ends this child within seconds.
+    After a SIGKILL of the parent, a supervisor normally ends its child within seconds.
     """
     orphans = _orphans(places)
     wait_until(lambda: not orphans & _orphans(places), ENDING, 0.1)
@@ -161,7 +161,7 @@ def _leftovers(places: Places) -> Iterator[Finding]:
 
 
 def _orphans(places: Places) -> set[str]:
-    """Return the ids of this checkout's processes whose parent has ended."""
+    """Return the ids of the processes of this checkout that have no parent any more."""
     found = set()
     for status in Path("/proc").glob("[0-9]*/stat"):
         try:

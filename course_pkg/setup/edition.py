@@ -22,7 +22,7 @@ def released_chapters(checkout: Path) -> tuple[str, ...] | None:
 
 
 def require_solutions(checkout: Path, command: str) -> None:
-    """Raise SetupError if `checkout` has no solutions, because `command` needs them."""
+    """Raise SetupError if `checkout` has no solutions; the command `command` needs them."""
     if (checkout / RECORD).exists():
         raise SetupError(
             f"`course {command}` needs the solutions, but {checkout} is the students' edition, which "

@@ -17,7 +17,7 @@ from course_pkg.files import write_atomically
 from course_pkg.setup.places import Places
 
 # The course does not use the user's values of these variables. The first three variables could break the
-# course. With the last variable, Python would compile all modules of JupyterLab at every start (2 s).
+# course. The last variable would make Python compile all modules of JupyterLab at every start (2 s).
 REMOVED = ("PYTHONHOME", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONDONTWRITEBYTECODE")
 LOOPBACK = "devel/lib/libcourse_loopback.so"  # The set-up builds this library from ros/process/loopback.c.
 BY_SHELL = ("PWD", "OLDPWD", "SHLVL", "_")
@@ -42,8 +42,8 @@ def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
     """Return the environment with the variables of the course, which replace the user's values.
 
     In PATH, the folders of the interpreter and of the system come before all other folders. ROS_MASTER_URI,
-    ROS_HOSTNAME and ROS_IP keep the user's values. LD_PRELOAD contains a library of the course: if
-    ROS_HOSTNAME is localhost, C++ nodes listen only on 127.0.0.1.
+    ROS_HOSTNAME and ROS_IP keep the user's values. LD_PRELOAD contains a library of the course. With this
+    library, C++ nodes listen only on 127.0.0.1 if ROS_HOSTNAME is localhost.
     """
     result = {name: value for name, value in environ.items() if name not in REMOVED}
     result.update(json.loads(places.environment.read_text()))
@@ -58,7 +58,7 @@ def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
         result["LD_PRELOAD"] = ":".join(dict.fromkeys([*preloaded, str(library)]))
     result.setdefault("ROS_LOG_DIR", str(places.own_data / "log" / "ros"))
     # rospy's messages import numpy, and numpy starts threads. These threads would receive signals that the
-    # main thread blocks. A process with several threads cannot enter a user namespace.
+    # main thread blocks. Also, a process with several threads cannot enter a user namespace.
     result.setdefault("OPENBLAS_NUM_THREADS", "1")
     return result
 

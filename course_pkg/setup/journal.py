@@ -36,8 +36,8 @@ class Journal:
         """Run the command `command`, and wait until it ends.
 
         The function `watch` is called twice per second with the last line of the output. The output goes to a
-        file, so a package manager can finish even if the set-up is killed. The command inherits the lock, so
-        the next set-up waits until the command has ended.
+        file. Therefore, a package manager can finish even after the set-up was killed. The command inherits
+        the lock; the next set-up therefore waits until the command has ended.
 
         Raises SetupError, with the last lines of the output, if the command fails.
         """

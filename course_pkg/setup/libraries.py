@@ -18,7 +18,7 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.stamps import digest
 
 LOCKS = Path(__file__).with_name("locks")
-# This file from a library would delay every start of Python by 30 ms, so the set-up deletes it.
+# A library contains this file. It would delay every start of Python by 30 ms, so the set-up deletes it.
 SLOW_STARTER = "a1_coverage.pth"
 PIP_TO_UV = {
     "index-url": "UV_DEFAULT_INDEX",
@@ -34,7 +34,7 @@ UV_SETTINGS = {
     "UV_NO_CONFIG": "1",
     "UV_PYTHON_DOWNLOADS": "never",
     "UV_SYSTEM_CERTS": "1",
-    # pip also searches all indexes for the best version. This is safe, because the lock file contains hashes.
+    # pip also searches all indexes for the best version. This is safe: the lock file contains hashes.
     "UV_INDEX_STRATEGY": "unsafe-best-match",
 }
 
@@ -64,7 +64,7 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
         journal.run(
             [uv, "venv", "--clear", "--system-site-packages", "--python", base_python(), places.venv], env=env
         )
-    # uv must not install further dependencies: the lock file lists all necessary libraries, and it omits some
+    # uv must not install further dependencies. The lock file lists all necessary libraries, and omits some
     # dependencies on purpose (see lock.py).
     options: list[str | Path] = ["--no-deps", "--require-hashes", "-r", lock_file(extra)]
     if env.get("UV_NO_INDEX"):  # for this setting, uv has only an option, no variable
@@ -80,7 +80,7 @@ def uv_program(places: Places) -> Path:
 
 
 def installed_uv(places: Places, journal: Journal) -> Path:
-    """Return the path of uv; if it is missing, pip installs it first. Raises SetupError if pip fails."""
+    """Return the path of uv; if uv is missing, install it with pip first. Raises SetupError if pip fails."""
     uv = uv_program(places)
     if not uv.exists():
         folder = uv.parents[1]
@@ -102,7 +102,7 @@ def installed_uv(places: Places, journal: Journal) -> Path:
 
 
 def uv_environment() -> dict[str, str]:
-    """Return this process's environment; the user's pip settings are converted into variables of uv."""
+    """Return this process's environment, with the user's pip settings as variables of uv."""
     return {**_clean_environment(), **as_uv_variables(_pip_settings(), os.environ)}
 
 
@@ -169,7 +169,7 @@ def base_python() -> str:
 
 
 def _is_on_base(places: Places) -> bool:
-    """Return whether the environment was created in its current folder and with the current interpreter."""
+    """Return whether the environment was created in this folder and with the current interpreter."""
     if not environment_works(places):
         return False
     program = "import os, sys; print(os.path.realpath(sys._base_executable), sys.version, sys.prefix)"

@@ -11,8 +11,8 @@ from course_pkg.setup.libraries import lock_file, uv_program
 from course_pkg.setup.places import Places
 
 UV = "uv==0.13.8"
-# These libraries parse rare formats in JSON schemas, and jsonschema works without them. The import of one of
-# these libraries compiles a grammar, which takes 1.3 s at each start.
+# These libraries parse rare formats in JSON schemas, and jsonschema works without them. Importing one of
+# these libraries compiles a grammar; this takes 1.3 s at each start.
 LEFT_OUT = ("arrow", "fqdn", "isoduration", "lark", "rfc3987-syntax", "uri-template", "webcolors")
 HEADER = "# Written by `./course lock` from pyproject.toml. Do not edit.\n"
 WITHOUT = f"""\
@@ -29,7 +29,7 @@ def write_locks(places: Places) -> list[Path]:
     constraint = ["--constraint", str(lock_file("course"))]
     _compile(uv, checkout, ["pyproject.toml", "--extra", "hub", *constraint], lock_file("hub"))
     constraint += ["--constraint", str(lock_file("hub"))]
-    # The tests need the libraries of the hub, too, because they start a hub.
+    # The tests also need the libraries of the hub, because they start a hub.
     everything = ["--extra", "hub", "--extra", "test"]
     _compile(uv, checkout, ["pyproject.toml", *everything, *constraint], lock_file("test"))
     return [lock_file(name) for name in ("uv", "course", "hub", "test")]

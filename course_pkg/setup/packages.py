@@ -26,7 +26,7 @@ APT_OPTIONS = (
     "-o",
     "Dpkg::Use-Pty=0",
     "-o",
-    # The option --force-unsafe-io makes dpkg faster. The option is safe, because a failed set-up is repeated.
+    # The option --force-unsafe-io makes dpkg faster. The option is safe: a failed set-up is repeated.
     "Dpkg::Options::=--force-unsafe-io",
     "-o",
     "Dpkg::Options::=--force-confold",
@@ -35,10 +35,10 @@ LISTS = Path("/var/lib/apt/lists")
 STATUS = Path("/var/lib/dpkg/status")
 FRESH = 24 * 3600  # apt's package lists are considered up to date for this time in s.
 APT = "/usr/bin/apt-get"
-# The messages have to be in English, because LOCKED matches English messages.
+# The messages must be in English, because LOCKED matches English messages.
 UNATTENDED = ("env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8")
 LOCKED = re.compile(r"Could not get lock|lock was locked by another process|Unable to (?:acquire|lock)")
-# The set-up waits up to this time in s for a lock, because `apt-get update` and dpkg cannot wait.
+# The set-up itself waits up to this time in s for a lock: `apt-get update` and dpkg cannot wait.
 LOCK_TIMEOUT = 600.0
 RETRY_INTERVAL = 2.0  # This is the time in s between two attempts.
 WAITING = (
@@ -129,7 +129,7 @@ def install_packages(names: Sequence[str], journal: Journal, report: Callable[[s
     except SetupError:
         if not updated:
             raise
-        # Get new package lists, because the old lists may refer to files that the server has replaced.
+        # Get new package lists: the old lists may refer to files that the server has replaced.
         run(APT, "update", "-q")
         run(APT, "install", *APT_OPTIONS, *names)
 

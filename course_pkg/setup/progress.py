@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TextIO
 
 LIVE_INTERVAL = 0.2  # This is the time in s between two updates of the line on a terminal.
-# If the output is not a terminal, this is the time in s between two lines with the count.
+# In other outputs than a terminal, this is the time in s between two lines with the count.
 LINE_INTERVAL = 10.0
 BAR = 20  # The progress bar has this width in characters.
 GREEN, RED, PLAIN = "\033[32m", "\033[31m", "\033[0m"
@@ -72,7 +72,7 @@ class Progress:
     def advance(self, count: int = 1, *, kept: bool = False) -> None:
         """Add `count` to the number of finished items.
 
-        If `kept` is true, an earlier run of the program has finished the items, so they take no time.
+        If `kept` is true, an earlier run has finished the items; they took no time in this run.
         """
         with self._lock:
             self._done += count
@@ -84,7 +84,10 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Show the text `text`, which explains a wait, unless the previous call showed the same text."""
+        """Show the text `text`, which explains a wait.
+
+        Do nothing if the previous call showed the same text.
+        """
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:

@@ -1,4 +1,4 @@
-"""Record the finished steps, in one small file per step; a lock allows only one set-up at a time."""
+"""Record the finished steps, in one small file per step. A lock allows only one set-up at a time."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def digest(parts: Iterable[str | bytes]) -> str:
 def locked(path: Path, on_wait: Callable[[], None]) -> Iterator[int]:
     """Acquire the lock at the path `path`, and yield its file descriptor.
 
-    If another process has the lock, the function `on_wait` is called.
+    Call the function `on_wait` if another process has the lock.
     """
     with path.open("w") as file:
         try:

@@ -24,8 +24,8 @@ EXTRAS = {"course": "", "hub": " of the hub", "test": " of the tests"}
 class Step(NamedTuple):
     """One step of the set-up.
 
-    The function `is_done` runs at every start of `course`, so this function must be fast. `makes` is the
-    folder that the step creates.
+    The function `is_done` must be fast, because it runs at every start of `course`. `makes` is the folder
+    that the step creates.
     """
 
     title: str
@@ -38,7 +38,7 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
     """Set up what is missing.
 
     If nothing is missing, this function takes a few milliseconds and prints nothing. In a shared
-    installation, only the libraries of the hub may be missing; they are installed when an administrator runs
+    installation, only the libraries of the hub may be missing. They are installed when an administrator runs
     `course hub` for the first time. Raises SetupError if a step fails; the error message contains the next
     step for the user.
     """
@@ -114,7 +114,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        # The stamp is written here so that the next start of `course` does not have to call dpkg.
+        # The stamp is written here; the next start of `course` then does not have to call dpkg.
         with suppress(OSError):
             stamps.write(name, state)
         return True
@@ -127,8 +127,8 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
     def is_done() -> bool:
-        # Each lock file contains all libraries of the earlier lock files, so the stamp of a later lock file
-        # is sufficient.
+        # Each lock file contains all libraries of the earlier lock files. Therefore, the stamp of a later
+        # lock file is sufficient.
         sufficient = list(EXTRAS)[list(EXTRAS).index(extra) :]
         made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in sufficient)
         return libraries.environment_works(places) and any(made)

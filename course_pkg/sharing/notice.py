@@ -30,7 +30,7 @@ def keep_about(folder: Path, url: str, about: Mapping[str, object]) -> None:
 
 
 def notice() -> str:
-    """At the first call in this process, return the notice; at all later calls, return "".
+    """At the first call in this process, return the notice; later, return "".
 
     If sharing is off, return "".
     """

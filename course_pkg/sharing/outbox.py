@@ -76,7 +76,7 @@ class Outbox:
 
 
 def _hint(report: Mapping[str, object]) -> str:
-    """Return the hint or the text of the first assertion that does not hold, or "" if all assertions hold."""
+    """Return the hint or the text of the first assertion that fails, or "" if all assertions hold."""
     assertions = report.get("assertions")
     for each in assertions if isinstance(assertions, Sequence) else ():
         if not each["holds"]:

@@ -33,8 +33,8 @@ class NotAccepted(Exception):
 def start_sender(warn: Callable[[str], object]) -> threading.Thread | None:
     """Start the thread that sends results; return None if sharing is off.
 
-    The function `warn` is called with a message when the sending fails for the first time, and when the
-    reason of the failure changes.
+    The function `warn` is called with a message after the first failure, and when the reason of the failure
+    changes.
     """
     if not address():
         return None

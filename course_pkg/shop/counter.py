@@ -35,8 +35,8 @@ class Counter:
         """Plan a visit for each delay in `after`, and return the new visits.
 
         A delay is a time in s from the time `now` until a customer comes; `stay` is the length of each visit
-        in s. Visits that earlier calls have planned for the future are removed. Raises FieldError for invalid
-        times; in this case, the visits do not change.
+        in s. Visits that earlier calls have planned for the future are removed. Raises FieldError, and
+        changes no visits, if a time is invalid.
         """
         if len(after) > MOST:
             raise FieldError(

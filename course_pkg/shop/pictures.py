@@ -22,9 +22,9 @@ HALF_BREADTH = 0.13  # Half the width of a customer is this fraction of the pict
 WIDTH, HEIGHT = 160, 120  # A frame has this size in pixels.
 DARK = 96  # A pixel with a lower brightness is dark.
 SHARE = 10  # If at least 1/SHARE of the pixels are dark, the frame shows a customer.
-BRIGHT, DARK_COAT = 208, 40  # These are the minimum brightness of the wall and of a coat.
-SHADE = 12  # Pixels of the wall and of a coat vary in brightness by less than this value.
-# The values are half the width of a head and of the shoulders, as fractions of the frame's height.
+BRIGHT, DARK_COAT = 208, 40  # The minimum brightness of the wall, and of a coat.
+SHADE = 12  # Within the wall or a coat, the brightness of pixels varies by less than this value.
+# Half the width of a head, and of the shoulders, as fractions of the frame's height.
 HEAD, SHOULDERS = 0.14, 0.2
 
 
@@ -43,7 +43,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
     if y >= 0.72:
         return bytes(TOP if y < 0.76 else COUNTER) * width
     row = bytearray(bytes(WALL if y < 0.6 else FLOOR) * width)
-    # If there are many customers, each customer is drawn narrower, so that there are gaps between them.
+    # Many customers are drawn narrower; there are then gaps between them.
     squeeze = min(height, 0.44 / HALF_BREADTH * width / (customers + 1))
     for number, coat in enumerate(islice(cycle(COATS), customers), 1):
         half, colour = _figure_at(y, coat)
@@ -81,10 +81,10 @@ def frame_points(customers: int) -> bytes:
 
 
 def sees_customer(frame: Frame) -> bool:
-    """Return whether a frame shows a customer: at least a tenth of its pixels are dark.
+    """Return whether a frame shows a customer, because at least a tenth of its pixels are dark.
 
-    Raises ValueError for an invalid frame. In a valid frame, the encoding is mono8, there is at least one
-    pixel, a row is not longer than `step`, and the data have `height * step` bytes.
+    Raises ValueError for an invalid frame. A valid frame has the encoding mono8 and at least one pixel. A row
+    is not longer than `step`, and the data have `height * step` bytes.
     """
     if frame.encoding != "mono8":
         raise ValueError(f"the encoding is {frame.encoding!r}, and not mono8")

@@ -1,4 +1,4 @@
-"""The customers that a camera sees at a counter, and functions that wait for one.
+"""The customers that a camera sees at a counter, and functions that wait for a customer.
 
 This module does not need ROS.
 
@@ -18,9 +18,9 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-# A waiting thread checks at least once in this time (s) whether the camera is silent.
+# A waiting thread checks whether the camera is silent, at least once in this time (s).
 POLL = 0.25
-# If an Eye receives no valid frame for this time in s, the state of the counter is unknown.
+# The state of the counter is unknown if an Eye receives no valid frame for this time in s.
 FRAME_TIMEOUT = 1.0
 
 Time: TypeAlias = "float | genpy.Time"  # a time on the clock that a Watch uses
@@ -106,8 +106,8 @@ class Watch:
 class Eye(Generic[Frame]):
     """Reads frames, and stores whether the newest valid frame shows a customer.
 
-    `sees` returns whether a frame shows a customer, and raises ValueError for an invalid frame. Each valid
-    frame notifies the threads that wait for the condition `changed`.
+    `sees` returns whether a frame shows a customer, and raises ValueError for an invalid frame. A valid frame
+    wakes the threads that wait for the condition `changed`.
     """
 
     def __init__(self, sees: Callable[[Frame], bool]) -> None:
@@ -132,11 +132,11 @@ class Eye(Generic[Frame]):
 
 
 def await_customer(eye: Eye[Frame], patience: float) -> bool:
-    """Return True as soon as a customer is at the counter; return False if none comes in time.
+    """Return True as soon as a customer is at the counter, or False if no customer comes in time.
 
     The maximum waiting time is `patience` (s).
 
-    Raises CameraSilent after this time if no valid frame arrived in the last second.
+    Raises CameraSilent after the waiting time if no valid frame has arrived in the last second.
     """
     with eye.changed:
         found = eye.changed.wait_for(eye.look, timeout=patience)
