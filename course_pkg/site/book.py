@@ -29,8 +29,8 @@ OPTIONS = (
     "--no-first-run",
     "--no-pdf-header-footer",
     "--generate-pdf-document-outline",
-    # Before Chromium prints the page, its virtual clock runs for up to this time in ms. This time is long
-    # enough to draw all panels.
+    # Chromium's virtual clock runs for up to this time in ms before Chromium prints the page. This time is
+    # long enough to draw all panels.
     "--virtual-time-budget=20000",
 )
 LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
@@ -39,7 +39,7 @@ LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
 def prefix(chapter: Chapter) -> str:
     """Return the text with which all anchors (HTML ids) of a chapter begin.
 
-    All chapters of the book are on one page, so anchors of different chapters need different prefixes.
+    All chapters of the book are on one page. Their anchors therefore need different prefixes.
     """
     return f"c{chapter.number}-"
 

@@ -38,7 +38,7 @@ PANEL_CLASS = 'class="panel"'
 class PageSource(NamedTuple):
     """A chapter for which the site has a page.
 
-    `trouble` is the reason why the page does not show the latest run, or "" if the page shows the latest run.
+    `trouble` is the reason why the page does not show the latest run; otherwise, it is "".
     """
 
     chapter: Chapter
@@ -136,10 +136,10 @@ class Settings(NamedTuple):
     """The options of `course site`.
 
     `out` is the output folder. If `student` is True, the pages show the students' notebooks; otherwise, they
-    show the solutions. `chapters` lists the chapters that run again if they have changed. For all other
-    chapters, the site shows the outputs of the last run. If `execute` is False, no chapter runs again.
-    `binder` is the address that opens the repository in Binder, without the query. If `book` is True, the
-    site also has a page with all chapters.
+    show the solutions. `chapters` lists the chapters that may run again; they run only if they have changed.
+    For all other chapters, the site shows the outputs of the last run. If `execute` is False, no chapter runs
+    again. `binder` is the address that opens the repository in Binder, without the query. If `book` is True,
+    the site also has a page with all chapters.
     """
 
     out: Path
@@ -153,8 +153,8 @@ class Settings(NamedTuple):
 class Folder:
     """The folder of a site during writing; it is a context manager.
 
-    If the `with` block ends without an exception, the files of an earlier site are removed, except those that
-    the block has written again.
+    After a `with` block without an exception, files of an earlier site are removed if the block has not
+    written them again.
     """
 
     def __init__(self, path: Path) -> None:

@@ -1,8 +1,8 @@
 """Builds the scripts, fonts and licences that every page loads: `python -m course_pkg.site.bundling`.
 
-The build downloads packages from the npm registry and needs Node. Only a maintainer who changes the scripts,
-fonts or licences needs Node, because the built files are stored in `assets/`. A test builds the files again,
-and compares them with the stored files.
+The build downloads packages from the npm registry and needs Node. The folder `assets/` contains the built
+files. Therefore, only a maintainer who changes the scripts, fonts or licences needs Node. A test builds the
+files again and compares them with the stored files.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ TIMEOUT = 300  # One npm command may take up to this time in s, because it may d
 def build(target: Path, names: Sequence[str] = (*BUILT, AXE)) -> list[Path]:
     """Build the files `names` in the folder `target`, and return their paths.
 
-    The build uses a temporary folder, because rosrun would also search a node_modules folder inside the
-    package. Raises SiteError if npm is missing or fails.
+    The build uses a temporary folder: rosrun would also search a node_modules folder inside the package.
+    Raises SiteError if npm is missing or fails.
     """
     with tempfile.TemporaryDirectory(prefix="course-bundle-") as folder:
         work = Path(shutil.copytree(BUNDLE, Path(folder) / "bundle"))

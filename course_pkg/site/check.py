@@ -77,7 +77,7 @@ class _Reader(HTMLParser):
             self._inside.pop()
 
     def handle_data(self, data: str) -> None:
-        """Record formulas that are still LaTeX.
+        """Record formulas in the page that are LaTeX and not MathML.
 
         Only formulas in prose must be MathML; a cell's output may contain LaTeX.
         """

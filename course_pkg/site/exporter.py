@@ -60,7 +60,7 @@ SOMEWHERE = {
     "td": {"colspan", "rowspan"},
     "th": {"colspan", "rowspan", "scope"},
 }
-VERDICT = ["border-left"]  # A report uses this CSS property to show whether the check has passed.
+VERDICT = ["border-left"]  # With this CSS property, a report shows whether the check has passed.
 PLAIN = re.compile(r"[-\w\s:;#.%]*")  # The pattern matches a style without a CSS function such as url().
 PICTURE = re.compile(r"data:image/(png|jpeg|gif|webp);base64,[A-Za-z0-9+/=\s]*")
 HERE = Path(__file__).parent
@@ -103,7 +103,10 @@ class Exporter(HTMLExporter):
 
     @property
     def default_config(self) -> Config:
-        """The settings of nbconvert, with the MIME types that a page may show, in order of preference."""
+        """The settings of nbconvert.
+
+        They list the MIME types that a page may show, in order of preference.
+        """
         own = Config({"NbConvertBase": {"display_data_priority": SHOWN}})
         inherited: Config = super().default_config.copy()
         inherited.merge(own)
@@ -122,8 +125,8 @@ class Exporter(HTMLExporter):
 
         self._prose = Prose(self.highlight.block, prefix, shown)
         resources = {"global_content_filter": PARTS, "prefix": prefix, "states": []}
-        # nbconvert's from_notebook_node would copy the notebook three times for preprocessors, and parse the
-        # page again. Rendering the template directly avoids this work.
+        # For its preprocessors, nbconvert's from_notebook_node would copy the notebook three times, and parse
+        # the page again. Rendering the template directly avoids this work.
         text = self.template.render(nb=_showable(notebook), resources=resources)
         return Body(text.strip(), self._prose.headings)
 
@@ -131,7 +134,7 @@ class Exporter(HTMLExporter):
 def _showable(notebook: Notebook) -> nbformat.NotebookNode:
     """Return a copy of the notebook `notebook` without the outputs that a page cannot show.
 
-    nbconvert would print a warning for each output that a page cannot show.
+    For such an output, nbconvert would print a warning.
     """
     node: nbformat.NotebookNode = nbformat.from_dict(notebook)
     for cell in (cell for cell in node["cells"] if cell["cell_type"] == "code"):

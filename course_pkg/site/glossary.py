@@ -21,8 +21,8 @@ HERE = Path(__file__).parent
 class Entry(NamedTuple):
     """A term, its meaning, its anchor, and a link to the section that explains it.
 
-    `page` is the address of the section that explains the term, and `where` is the name of the
-    section's chapter. `page` and `where` are empty if no chapter explains the term.
+    `page` is the address of the section that explains the term. `where` is the name of the section's chapter.
+    `page` and `where` are empty if no chapter explains the term.
     """
 
     term: str
@@ -67,7 +67,7 @@ def _entry(term: str, meaning: str, texts: Sequence[tuple[Chapter, Notebook, Seq
 
 
 def _explained(term: str, notebook: Notebook, headings: Sequence[Heading]) -> Heading | None:
-    """Return the heading of the first section with the term in bold or italics, or None without a match."""
+    """Return the heading of the first section with the term in bold or italics, or None."""
     coming = iter(headings)
     current = None
     marked = re.compile(rf"\*{{1,2}}{re.escape(term)}s?\*{{1,2}}", re.IGNORECASE)

@@ -19,8 +19,8 @@ from course_pkg.site.search_index import Heading
 HERE = Path(__file__).parent
 PATHS = HERE.parent / "chapters" / "paths.json"
 COURSE = "Who waits for whom?"
-# A page loads only scripts and style sheets with its nonce, and it opens no connections. Styles in attributes
-# are allowed, because the panels and their drawings use them.
+# A page loads only scripts and style sheets with its nonce, and it opens no connections. The panels and their
+# drawings need styles in attributes, so these are allowed.
 POLICY = (
     "default-src 'none'; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; "
     "style-src-attr 'unsafe-inline'; img-src data:; font-src data:; "
@@ -53,7 +53,7 @@ class Choice(NamedTuple):
 class LearningPath(NamedTuple):
     """A selection of chapters that a reader can understand without any other chapter.
 
-    A path with two possible last chapters has two objects Choice.
+    If a path has two possible last chapters, it has two objects Choice.
     """
 
     name: str
@@ -86,12 +86,12 @@ class Renderer:
         self._assets = assets
 
     def part(self, template: str, **values: object) -> Markup:
-        """Return the template, filled with the values; a value is escaped, unless its type is Markup."""
+        """Return the filled template; all values are escaped, except values of the type Markup."""
         return Markup(self._environment.get_template(template).render(**self._frame, **values))  # noqa: S704
 
     def page(self, page: Page) -> str:
         """Return the HTML of the complete page."""
-        # The nonce depends on the whole page, so code in a stored output cannot contain the nonce.
+        # The nonce depends on the whole page. Therefore, code in a stored output cannot contain the nonce.
         nonce = digest([self._assets, page.html])
         policy = POLICY.format(nonce=nonce)
         return str(self.part("frame.html.j2", page=page, nonce=nonce, policy=policy))

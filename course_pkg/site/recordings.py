@@ -1,4 +1,4 @@
-"""Records panels while a notebook runs, so that the site can show real responses without a kernel.
+"""Records panels while a notebook runs; the site can then show real responses without a kernel.
 
 A chapter's file `recordings.json` contains plans for some cells; each key is the id of a cell. A plan has
 these keys:
@@ -48,7 +48,7 @@ class Panel(Protocol):
         """Send the requests to the service, and record the responses."""
 
     def shown(self) -> None:
-        """Start the work that the panel does only while a page shows the panel."""
+        """Start the work that the panel does while a page shows it."""
 
     def hidden(self) -> None:
         """Stop the work that `shown` started."""
@@ -109,8 +109,8 @@ def _call_during(seconds: float, calls: Sequence[tuple[str, str, Mapping[str, fl
 def _recording(shown: Cell, plan: Plan) -> Cell:
     """Return a cell that records the panel of the cell above; the new cell defines no variable.
 
-    The new cell reads the panel from `_oh`, IPython's dict of results. The new cell cannot use `_`, because a
-    notebook may define a variable with this name.
+    The new cell reads the panel from `_oh`, IPython's dict of results. It cannot use `_`, because a notebook
+    may define a variable with this name.
     """
     added = copy.deepcopy(shown)
     added["id"] = f"recording-{shown['id']}"[:64]

@@ -1,7 +1,7 @@
 """Runs notebooks for the site, and stores their outputs.
 
 A notebook runs again only if its code, or a file that its code uses, has changed. The site cannot use the
-stored notebooks' outputs, because these outputs do not contain the states of panels.
+outputs that are stored in notebooks, because they do not contain the states of panels.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from course_pkg.setup import CATKIN_FOLDERS, Places
 from course_pkg.setup.stamps import digest
 from course_pkg.site.recordings import embed_states, plans, with_recordings, without_recordings
 
-# Notebooks do not use the modules in these folders, so a change of these modules causes no new run.
+# Notebooks do not use the modules in these folders. Therefore, a change of these modules causes no new run.
 IDLE = (
     *("authoring", "chapters", "class_view", "grading", "handout", "hub", "installation", "lab", "sandbox"),
     *("setup", "site", "web_pages"),
@@ -44,7 +44,7 @@ class Runs:
         self._shared = digest(self._package())
 
     def update(self, paths: Sequence[Path]) -> dict[Path, AuthoringError]:
-        """Run each notebook again if its code, or a file that the code uses, has changed; store the outputs.
+        """Run each changed notebook again, and store its outputs; a change of a used file also counts.
 
         Several notebooks run at the same time. Returns the errors of the notebooks that stopped before their
         last cell.
@@ -98,8 +98,7 @@ class Runs:
     def _package(self) -> Iterator[str | bytes]:
         """Yield the contents of all files that a notebook can run, read or import.
 
-        The checks of the chapters are omitted, because `_key` adds only the checks of the notebook's own
-        chapter.
+        The checks of the chapters are omitted; `_key` adds the checks of the notebook's own chapter.
         """
         root = self._places.checkout
         yield sys.version

@@ -19,7 +19,7 @@ JSDOC = re.compile(r"^[ \t]*/\*\*(?:[^*]|\*(?!/))*\*/[ \t]*\n", re.MULTILINE)
 
 
 def panels_script(folder: Path = PANELS) -> str:
-    """Return a script that sets `coursePanels`: an object that maps the name of each panel to `{ render }`.
+    """Return a script that sets `coursePanels`, which maps the name of each panel to `{ render }`.
 
     Each JavaScript module becomes the body of a function. The function of a module comes after the functions
     of all modules that it imports.

@@ -1,4 +1,4 @@
-"""Code as HTML with colours. The HTML has as little markup as possible, because a page contains much code."""
+"""Code as HTML with colours. The HTML has little markup, because a page contains much code."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ FILES = {
 class Highlighter:
     """Adds colours to cells and to fenced blocks.
 
-    The lexer of a language is created when it is first needed.
+    The lexer of a language is created at its first use.
     """
 
     def __init__(self) -> None:
@@ -54,7 +54,8 @@ class Highlighter:
     def cell(self, source: str) -> str:
         """Return a code cell as HTML.
 
-        The cell contains Python, unless a magic in its first line names another language.
+        The first line of the cell can be a magic with the name of another language; otherwise, the cell
+        contains Python.
         """
         magic = MAGIC.match(source)
         if not magic:

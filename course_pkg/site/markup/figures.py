@@ -3,7 +3,7 @@
 The HTML contains the data of the figures, because a page must not load image files.
 
 A drawing (SVG) becomes part of the page's HTML, so readers can select and search its text. A drawing uses the
-page's colours if two conditions are true: its text has the colour `currentColor`, and its white background is
+page's colours under two conditions: its text has the colour `currentColor`, and its white background is
 `<rect class="ground" …>`. On the page, a rectangle of the class `ground` is transparent. Any other drawing
 has a white background, even in dark mode.
 """
@@ -29,16 +29,16 @@ SAID = ("title", "desc")  # The description in the Markdown replaces these eleme
 WITHIN = re.compile(r"url\(#([^)]*)\)")
 KINDS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".webp": "webp"}
 # This is the minimum width of a drawing, divided by the drawing's own width. In a narrower window, the
-# drawing gets a scroll bar, because smaller text cannot be read.
+# drawing gets a scroll bar: smaller text is too small to read.
 SMALLEST = 0.75
 
 
 def figure(folder: Path, url: str, alt: str, prefix: str) -> str:
     """Return the figure `url` of a notebook as HTML; `folder` is the folder of the notebook.
 
-    All ids in a drawing begin with the text `prefix`, so two drawings on a page have different ids. Raises
-    SiteError if the file is missing or has another format, if the description `alt` is empty, or if a drawing
-    contains a script or another forbidden element.
+    All ids in a drawing begin with the text `prefix`; two drawings on a page then have different ids. Raises
+    SiteError if the file is missing or has another format, or if the description `alt` is empty. Also raises
+    SiteError for a drawing with a forbidden element, such as a script.
     """
     if not alt.strip():
         raise SiteError(f"The figure {url} has no description. Write a description: ![description]({url}).")

@@ -96,7 +96,7 @@ def _no_figure(url: str, _alt: str) -> str:
 
 
 def page_of(url: str) -> str:
-    """Return the site's address for a link in a notebook.
+    """Return the address on the site for a link in a notebook.
 
     For a link to another chapter, return the address of the chapter's page.
     """
