@@ -34,7 +34,7 @@ class Canvas:
         return red, green, blue
 
     def line(self, start: Point, end: Point, colour: Colour, width: int) -> None:
-        """Draw a straight line with this width in px; at both ends, it is longer by half the width."""
+        """Draw a straight line with this width in px; each end is extended by half the width."""
         half = max(width, 1) / 2
         reach = half * math.sqrt(2)
         top = max(math.floor(min(start[1], end[1]) - reach), 0)
@@ -56,9 +56,9 @@ class _Rectangle:
         along = (end[0] - start[0], end[1] - start[1])
         length = math.hypot(*along)
         ux, uy = (along[0] / length, along[1] / length) if length else (1.0, 0.0)
-        # A rectangle has two pairs of parallel edges; each entry describes one pair. An entry is (ux, uy,
-        # low, high): the unit vector at a right angle to the two edges, and the positions of these edges
-        # along the vector.
+        # A rectangle has two pairs of parallel edges. Each entry describes one pair. An entry is (ux, uy,
+        # low, high). The unit vector (ux, uy) is at a right angle to the two edges; `low` and `high` are
+        # their positions along this vector.
         self._pairs = ((ux, uy, -half, length + half), (-uy, ux, -half, half))
         self._start = start
 

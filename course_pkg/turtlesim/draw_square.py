@@ -45,8 +45,8 @@ class Walker:
     def after(self, x: float, y: float) -> Walker:
         """Return the Walker for the next side or corner, which begins at (x, y)."""
         if self.turning:
-            # The next side starts from the planned angle, because small errors of the turtle's real angle
-            # would add up.
+            # The next side starts from the planned angle. With the turtle's real angle, small errors would
+            # add up.
             return Walker(x, y, self.theta + CORNER)
         return replace(self, turning=True)
 

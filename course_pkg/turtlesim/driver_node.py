@@ -23,7 +23,7 @@ MAX_RATE = 100.0  # A driver publishes at most this number of velocity messages 
 
 
 class AdjustableDriver(Toggling):
-    """A driver that can stop, and whose speed can be changed."""
+    """A driver that can stop and change its speed."""
 
     def __init__(self, rate: float) -> None:
         super().__init__(rate)
@@ -65,7 +65,7 @@ class DriverServices:
 
 
 def serve(services: DriverServices, *names: str) -> None:
-    """Offer the services `names`, whose handlers change the driver."""
+    """Offer the services `names`; their handlers change the driver."""
     available = {
         "toggle_forward": (Empty, services.driver.handle_toggle),
         "change_rate": (ChangeRate, services.change_rate),

@@ -11,7 +11,7 @@ from std_srvs.srv import EmptyRequest, EmptyResponse
 
 SPEED = 1.0  # This is the default speed in m/s.
 TURN = 1.0  # This is the default angular velocity in rad/s.
-SLICE = 0.02  # A new rate takes effect within this time in s, because keep_driving() waits at most this time.
+SLICE = 0.02  # keep_driving() waits at most this time in s, so a new rate takes effect within this time.
 
 Publish = Callable[[Twist], None]
 
@@ -37,7 +37,7 @@ class Toggling:
         return (SPEED, 0.0) if self.forward else (0.0, TURN)
 
     def handle_toggle(self, _request: EmptyRequest) -> EmptyResponse:
-        """Change between going straight and turning; this method is the handler of toggle_forward."""
+        """Switch between driving straight and turning; this method is the handler of toggle_forward."""
         self.forward = not self.forward
         return EmptyResponse()
 
@@ -59,7 +59,6 @@ def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> 
         now, period = time.monotonic(), 1.0 / driver.rate
         if now - last >= period:
             publish(to_twist(driver.velocity()))
-            # After a delay of this thread, skip the velocities that should have been published in the
-            # meantime.
+            # If this thread was delayed, skip the velocities that it should have published during the delay.
             last = max(last + period, now - SLICE)
         time.sleep(min(max(last + period - time.monotonic(), 0.0), SLICE))

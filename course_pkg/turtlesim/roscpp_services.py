@@ -1,8 +1,9 @@
 """Services and names with the behaviour of a roscpp node.
 
 rospy adds "service cannot process request: …" to an error message. A roscpp server sends only the error
-message of the callback, and this message may be empty. The connection header of a roscpp server contains the
-types of request and response; rospy's header does not. The protocol: http://wiki.ros.org/ROS/TCPROS.
+message of the callback; this message may be empty. The connection header of a roscpp server contains the
+types of request and response; rospy's header does not. Source of the protocol:
+http://wiki.ros.org/ROS/TCPROS.
 """
 
 from __future__ import annotations

@@ -23,10 +23,10 @@ from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
 FIRST = "turtle1"  # This turtle exists after a reset.
-# In one tick, the simulator handles requests for at most this time in s. Therefore, even many requests delay
-# a pose by at most this time.
+# In one tick, the simulator handles requests for at most this time in s. Many requests therefore delay a pose
+# by at most this time.
 BUDGET = 0.008
-# A tick that is late by more than this time in s is skipped, for example after the machine was suspended.
+# A tick with a longer delay than this time in s is skipped, for example after the machine was suspended.
 MAX_DELAY = 0.25
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
 
@@ -43,7 +43,7 @@ class Simulator:
             if not rospy.has_param(f"~{name}"):
                 rospy.set_param(f"~{name}", value)
         self._world = World(self._background())
-        # run() iterates over this dict on another thread, so the dict is never changed, only replaced.
+        # run() iterates over this dict on another thread. Therefore, the dict is never changed, but replaced.
         self._interfaces: dict[str, TurtleInterface] = {}
         turtle = self._world.turtles[FIRST]
         self._announce(turtle)
@@ -106,8 +106,8 @@ class Simulator:
                 rospy.logerr(str(error))
                 raise Refused("") from error
             added = self._in_next_tick(lambda: self._world.add(turtle))
-            # While the job waits for the next tick, this thread registers the turtle's topics and services at
-            # the master.
+            # This thread registers the turtle's topics and services at the master while the job waits for the
+            # next tick.
             interface = TurtleInterface(turtle, self._world.canvas, self.in_tick)
             added.result()
             self._announce(turtle)
@@ -136,8 +136,8 @@ class Simulator:
         with self._changes:
             removed = self._remove_others()
             done = self._in_next_tick(lambda: self._reset_world(background))
-            # Closing the topics and services of a turtle takes six calls to the master. This thread makes the
-            # calls while the job waits for the next tick.
+            # Closing the topics and services of a turtle takes six calls to the master. This thread makes
+            # these calls while the job waits for the next tick.
             for interface in removed:
                 interface.close()
             done.result()

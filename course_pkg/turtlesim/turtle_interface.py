@@ -1,11 +1,11 @@
 """The topics and services of a turtle.
 
-If a publisher has a queue, rospy starts a thread for each subscriber. This thread wakes up for each message,
-and 1,500 messages per second would take most of the CPU time. Without a queue, rospy writes each message
-directly. The publisher then has to wait if a subscriber does not read.
+If a publisher has a queue, rospy starts one thread for each subscriber. The thread wakes up for each message.
+With 1,500 messages per second, this would take most of the CPU time. Without a queue, rospy writes each
+message directly. The publisher then has to wait if a subscriber does not read.
 
-The publishers of a turtle use no queue: they write a message directly if the connection's buffer has space.
-If the buffer has no space, they drop the message.
+The publishers of a turtle use no queue. They write a message directly if the connection's buffer has space,
+and drop the message otherwise.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ InTick = Callable[[Callable[[], None]], None]
 class TurtleInterface:
     """The topics and services of one turtle, until close() is called.
 
-    The function `in_tick` runs another function between two ticks, and waits until that function has ended.
+    The function `in_tick` runs another function between two ticks, and waits for its end.
     """
 
     def __init__(self, turtle: Turtle, canvas: Canvas, in_tick: InTick) -> None:
@@ -135,7 +135,7 @@ class _Writer:
         self._room.register(connection.socket, select.POLLOUT)
 
     def __call__(self, data: bytes) -> bool:
-        """Write the bytes `data`; if the send buffer has no space, drop them.
+        """Write the bytes `data`; drop them if the send buffer has no space.
 
         Raises rospy's error if the connection is broken.
         """

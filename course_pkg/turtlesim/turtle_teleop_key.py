@@ -22,7 +22,7 @@ Drive turtle1 with the arrow keys of this terminal.
   q            quit
 """
 STEP = 2.0  # This is the default of ~scale_linear in m/s and of ~scale_angular in rad/s.
-POLL = 0.2  # If no key is pressed, rospy.is_shutdown() is called again after this time in s.
+POLL = 0.2  # Without a key press, the program calls rospy.is_shutdown() again after this time in s.
 # The keys of this dict are the last letters of the arrow keys' escape codes.
 KEYS = {"A": (1, 0), "B": (-1, 0), "D": (0, 1), "C": (0, -1)}
 

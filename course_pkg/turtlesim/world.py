@@ -15,7 +15,7 @@ from itertools import count
 from course_pkg.turtlesim.canvas import SIDE, Canvas, Colour, Point
 
 TICK = 0.016  # A tick has this length in s.
-# A metre has this number of pixels. The number is the height of a turtle's picture in ROS's own turtlesim.
+# A metre has this number of pixels. In ROS's own turtlesim, this number is the height of a turtle's picture.
 PIXELS = 45.0
 WIDTH = (SIDE - 1) / PIXELS  # The world has this width and height in m.
 HOME = WIDTH / 2  # The middle of the world has this x and y in m.
@@ -57,7 +57,8 @@ class Velocity:
 class Turtle:
     """One turtle.
 
-    Any thread may set `velocity`. All other attributes are set only by the world's thread.
+    Any thread may set `velocity`. Only the world's thread sets all other attributes. All other attributes are
+    set only by the world's thread.
     """
 
     name: str
@@ -195,7 +196,7 @@ def normalized(angle: float) -> float:
 
 
 def _near_canvas(point: Point) -> Point:
-    """Return the point; if it is far from the canvas, return a nearer point instead.
+    """Return the point, or a nearer point if the point is far from the canvas.
 
     A nearer point limits the time for drawing a line.
     """

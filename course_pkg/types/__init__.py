@@ -1,6 +1,6 @@
 """The fields, values, strings and commands of any service or message type.
 
-This package needs neither a master nor rospy.
+This package needs no master and no rospy.
 
 Each name is imported when it is first used.
 """

@@ -22,7 +22,7 @@ def rosservice_line(service: str, kind: ServiceType, values: Mapping[str, Plain]
     duration, the whole request is one YAML dict. Raises FieldError if a value is not valid.
     """
     plain = kind.request.check(values)
-    # rosservice also reads an empty argument as an empty string, so two pairs of quotes are not necessary.
+    # rosservice reads an empty argument as an empty string, so two pairs of quotes are not necessary.
     given = ["" if each == '""' else each for each in _arguments(kind.request.fields, plain)]
     return _shell_line("rosservice", "call", service, *_end_of_options(given), *given)
 
@@ -53,8 +53,8 @@ def rostopic_line(
 ) -> str:
     """Return the `rostopic pub` line for bash that publishes these values, once or at the rate `rate` (Hz).
 
-    If `latch` is true and `rate` is None, rostopic sends the message to later subscribers until Ctrl-C.
-    Raises FieldError if a value is not valid.
+    If `latch` is true and `rate` is None, rostopic runs until Ctrl-C and sends the message to later
+    subscribers. Raises FieldError if a value is not valid.
     """
     given = _arguments(kind.fields, kind.check(values))
     once = [] if latch else ["--once"]

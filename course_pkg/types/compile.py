@@ -1,7 +1,7 @@
 """Create classes for rospy from the text of a definition, without a build, files or changes to sys.modules.
 
-genpy.dynamic can compile only messages, and it does not delete the module and the folder of each message.
-This module runs the code from genpy's generator in a separate namespace.
+genpy.dynamic can compile only messages. For each message, it leaves a module and a folder. This module runs
+the code from genpy's generator in a separate namespace.
 """
 
 from __future__ import annotations
@@ -78,8 +78,8 @@ def dependency(cls: MessageClass, name: str) -> MessageClass:
 class _Generation:
     """Generates one type, and the message types that it depends on.
 
-    `classes` contains the classes of the dependencies. Each class is the built class, or a new class if the
-    type is not built or its definition has changed since the build.
+    `classes` contains the classes of the dependencies. If the type is built and its definition has not
+    changed since the build, its class is the built class. Otherwise, its class is new.
     """
 
     def __init__(self) -> None:

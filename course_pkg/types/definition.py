@@ -1,6 +1,6 @@
 """The lines of a .srv or .msg text: the declaration in each line, and its comments.
 
-The rules for a definition are from genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The text must be valid; the
+The rules for a definition are from genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The text must be valid. The
 module `diagnosis` explains the mistakes in an invalid text.
 """
 
@@ -32,7 +32,7 @@ class Line:
     @property
     def code(self) -> str:
         """The text before the comment."""
-        # The value of a string constant is all text after its equals sign, including a #.
+        # The value of a string constant is all text after its equals sign, even if the text contains a #.
         if self.text.lstrip().startswith("string ") and "=" in self.text.split("#")[0]:
             return self.text
         return self.text.split("#")[0]
@@ -82,7 +82,7 @@ class Comments:
 
 
 def comments(text: str) -> Comments:
-    """Return the comment at the top, and the comments that are after a field or directly above it."""
+    """Return the comment at the top, and the comments after a field or directly above it."""
     entries = list(lines(text))
     start = next((index for index, line in enumerate(entries) if line.text.strip()), 0)
     top = _leading_comment(entries[start:])

@@ -1,4 +1,4 @@
-"""Find the first mistake in the text of a definition, the line of this mistake, and a correction.
+"""Find the first mistake in the text of a definition; return its line and a correction.
 
 genmsg stops at the first line that it cannot read, and its error message often does not show this line. This
 module therefore checks each line for common mistakes first.
@@ -295,7 +295,7 @@ def _unreadable(type_name: str, text: str) -> tuple[str, str] | None:
 
 
 def _finite(text: str) -> float:
-    # genpy copies inf and nan into its Python code, and these names are not defined there.
+    # genpy copies inf and nan into its Python code, which does not define these names.
     if not math.isfinite(float(text)):
         raise ValueError(text)
     return float(text)

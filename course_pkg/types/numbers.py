@@ -23,12 +23,12 @@ def float32(number: float) -> float:
         return math.nan
     packed = _FLOAT32.pack(number)
     exact: float = _FLOAT32.unpack(packed)[0]
-    # The format omits zeros at the end, so a search that begins at 6 digits also finds shorter numbers. For
-    # subnormal numbers, the search begins at one digit, because their precision is lower.
+    # The format omits zeros at the end. Therefore, a search that begins at 6 digits also finds shorter
+    # numbers. For subnormal numbers, the search begins at one digit, because their precision is lower.
     fewest = 6 if abs(exact) >= _SMALLEST_NORMAL_FLOAT32 else 1
     for digits in range(fewest, 9):
         short = float(f"{exact:.{digits}g}")
-        # Near the largest float32, a number that is rounded to fewer digits can be out of range.
+        # A number near the largest float32 can be out of range after it was rounded to fewer digits.
         if math.isfinite(short) and _fits(short) and _FLOAT32.pack(short) == packed:
             return short
     return float(f"{exact:.9g}")
@@ -48,7 +48,8 @@ def parse_float(text: str) -> float:
     Raises ValueError for any other string.
     """
     if _NAN.fullmatch(text):
-        # Two lists with nan are equal only if both contain the same nan object, so always return this object.
+        # Two lists with nan are equal only if both contain the same nan object. Therefore, always return this
+        # object.
         return math.nan
     if infinite := _INFINITE.fullmatch(text):
         return float(f"{infinite[1]}inf")

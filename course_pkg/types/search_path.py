@@ -43,8 +43,8 @@ def _built_module(name: str, kind: DefinitionKind) -> ModuleType | None:
     package, short = split_type_name(name)
     if not short.isidentifier() or not package.isidentifier():
         return None
-    # This line imports the module of a type, not its package. genpy.message imports the package, and then
-    # does not find a type that was built after this import.
+    # This line imports the module of a type, not its package. genpy.message would import the package. It
+    # would then not find a type that was built after this import.
     module = f"{package}.{kind}._{short}"
     return sys.modules.get(module) or _import(module)
 
@@ -146,8 +146,8 @@ def _similarity(one: str, other: str) -> float:
 def _each_folder(
     kind: DefinitionKind, packages: Iterable[str], finder: rospkg.RosPack | None = None
 ) -> Iterator[tuple[str, Path]]:
-    # A RosPack object caches the paths of packages, so each search creates a new object, which takes a few
-    # milliseconds.
+    # A RosPack object caches the paths of packages. Therefore, each search creates a new object, which takes
+    # a few milliseconds.
     finder = finder or rospkg.RosPack()
     for package in packages:
         try:

@@ -1,8 +1,8 @@
 """Convert values to strings that people can read and type, and convert such strings to values.
 
 A string tree has the structure of a message, with a string instead of each number, string or bool. An array
-may also be one string (`[1, 2, 3]` or `1, 2, 3`), and a message may be one string (`{x: 1, y: 2}`), both in
-YAML's flow style. A time or duration may be a number of seconds (`1.5`).
+may also be one string (`[1, 2, 3]` or `1, 2, 3`). A message may also be one string (`{x: 1, y: 2}`). Both
+strings are in YAML's flow style. A time or duration may be a number of seconds (`1.5`).
 """
 
 from __future__ import annotations

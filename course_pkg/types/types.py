@@ -172,7 +172,7 @@ def type_in_file(name: str, kind: DefinitionKind) -> ServiceType | MessageType:
 
 
 def compile_service(name: str, text: str) -> ServiceType:
-    """Return the service type called `name` that is defined by the text of a .srv file.
+    """Return the service type `name`; `text` is the text of its .srv file.
 
     This function is stricter than genmsg, which accepts some mistakes (no `---` line, two `---` lines, a name
     that is a keyword of Python). Raises BrokenDefinition if the text has a mistake.
@@ -181,7 +181,7 @@ def compile_service(name: str, text: str) -> ServiceType:
 
 
 def compile_message(name: str, text: str) -> MessageType:
-    """Return the message type called `name` that is defined by the text of a .msg file.
+    """Return the message type `name`; `text` is the text of its .msg file.
 
     This function refuses the same mistakes as compile_service(), and raises the same errors.
     """

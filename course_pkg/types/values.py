@@ -61,7 +61,7 @@ def check_fields(fields: tuple[Field, ...], values: object, path: str, expected:
 
 
 def require_names(fields: tuple[Field, ...], values: object, path: str, expected: str) -> None:
-    """Raise FieldError unless `values` is a mapping with exactly the names of the fields."""
+    """Raise FieldError if `values` is not a mapping with exactly the names of the fields."""
     if not isinstance(values, Mapping):
         raise FieldError(path, values, expected, f"{brief(values)} is not a set of named fields")
     names = [field.name for field in fields]
@@ -149,7 +149,7 @@ def _check_array(field: Field, value: object, path: str) -> list[Plain]:
 
 
 def require_length(field: Field, items: Sequence[object], path: str) -> None:
-    """Raise FieldError unless a list has the length that its array field requires."""
+    """Raise FieldError if a list does not have the length that its array field requires."""
     if field.length is not None and len(items) != field.length:
         raise FieldError(path, items, allowed(field), f"{len(items)} elements were given")
 
