@@ -1,7 +1,7 @@
 """The folder for a student's results and own packages.
 
 Each checkout has its own state folder, which is outside the checkout. In a shared installation, the folder is
-in the user's own folder, so that an upgrade of the installation does not change the results.
+in the user's own folder. Therefore, an upgrade of the installation does not change the results.
 """
 
 from __future__ import annotations
@@ -21,8 +21,7 @@ from course_pkg.files import write_atomically
 from course_pkg.installed import DATA, own_folder, version_folder
 from course_pkg.waiting import wait_until
 
-# A program waits at most this time in s for a lock; this is enough, because each program writes only one
-# small file.
+# A program waits at most this time in s for a lock. This is enough: each program writes only one small file.
 LOCK = 5.0
 
 
@@ -47,7 +46,7 @@ def write_json(path: Path, data: Mapping[str, Any]) -> None:
 
 @contextmanager
 def locked(folder: Path, timeout: float = LOCK) -> Iterator[None]:
-    """Hold the lock of the folder `folder` during the `with` block, so that no other process uses the folder.
+    """Hold the lock of the folder `folder` during the `with` block; other processes cannot use the folder.
 
     The folder is created if it is missing. Raises OSError if the lock cannot be created, or if another
     process holds the lock for the time `timeout` (s). On a file system without locks, the block runs without

@@ -48,12 +48,12 @@ def wait_until(
     interval: float = INTERVAL,
     stopped: threading.Event | None = None,
 ) -> Value:
-    """Return the first true value of `condition`; after the time limit, return its last value.
+    """Return the first true value of `condition`, or its last value after the time limit.
 
     The time limit is `timeout` (s).
 
-    The condition is evaluated immediately, then repeatedly with pauses of `interval` (s), and once more after
-    the time limit. If the event `stopped` is set, the wait ends early.
+    The condition is evaluated immediately, then with pauses of `interval` (s), and once more after the time
+    limit. The event `stopped` ends the wait early.
     """
     deadline = Deadline(timeout)
     while True:
@@ -82,10 +82,10 @@ def at_this_load(seconds: float) -> float:
 def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 0.0) -> Iterator[None]:
     """Raise the error in the `with` block when the block has run for `seconds` s.
 
-    If `repeat` is not 0, the error is raised again and again, because code may catch the first error;
-    `repeat` is the time in s between two errors. This function uses an alarm signal (SIGALRM). The block
-    therefore has to run in the main thread, and must not contain another such block. In any other thread, the
-    function raises ValueError.
+    If `repeat` is not 0, the error is raised repeatedly, because code may catch the first error. `repeat` is
+    the time in s between two errors. This function uses an alarm signal (SIGALRM). The block therefore has to
+    run in the main thread, and must not contain another such block. In any other thread, the function raises
+    ValueError.
     """
 
     def alarm(*_: object) -> None:

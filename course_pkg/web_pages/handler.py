@@ -60,7 +60,7 @@ class PageHandler(RequestHandler):
         self.finish(json.dumps(data))
 
     def send_asset(self, path: Path) -> None:
-        """Send the script `path`, or the common style sheet followed by the style sheet `path`."""
+        """Send the script or style sheet `path`; send the common style sheet before a style sheet."""
         sheet = path.suffix == ".css"
         self.set_header("Content-Type", f"text/{'css' if sheet else 'javascript'}; charset=utf-8")
         self.finish(style_sheet(path) if sheet else path.read_bytes())

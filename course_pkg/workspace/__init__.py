@@ -1,4 +1,4 @@
-"""The student's catkin workspace, and explanations of the messages of its build.
+"""The student's catkin workspace, and explanations of error messages from its build.
 
 This package does not need rospy.
 """

@@ -1,8 +1,8 @@
-"""The messages of CMake in the output of a build, their meaning, and the commands in a CMakeLists.txt.
+"""Reads the messages of CMake in the output of a build, and the commands in a CMakeLists.txt.
 
-CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error;
-the student's line is in the call stack below the message. Each row of a table of messages is (pattern, file,
-problem, remedy). If `file` is empty, the fault is in the file that the message names.
+CMake breaks its messages into lines of about 75 characters. A message contains the name of the file that
+reported the error. The student's line is in the call stack below the message. Each row of a table of messages
+is (pattern, file, problem, remedy). If `file` is empty, the fault is in the file that the message contains.
 """
 
 from __future__ import annotations

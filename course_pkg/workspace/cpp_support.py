@@ -13,7 +13,7 @@ WARNINGS = ("-Werror=return-type",)
 
 
 def missing_for_cpp() -> str:
-    """If a tool for C++ programs is missing, return an instruction to install this tool; else return ""."""
+    """Return an instruction to install a missing tool for C++ programs, or "" if no tool is missing."""
     if not _compiler_here():
         return _advice(f"No C++ compiler is installed ({compiler()}).", "g++", "compilers")
     if not any((prefix / HEADER).exists() for prefix in prefixes()):

@@ -2,8 +2,8 @@
 
 Tables contain patterns of error messages. A pattern matches words that are probably the same in every release
 of the tool. The messages come from catkin 0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The
-first row that matches is used. A text of a row can contain the name of a regex group in braces. The text that
-this group has matched replaces the name and the braces.
+first row that matches is used. A text of a row can contain the name of a regex group in braces, such as
+{name}. The text that the group has matched replaces the name and the braces.
 """
 
 from __future__ import annotations

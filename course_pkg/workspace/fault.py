@@ -59,7 +59,7 @@ def dependencies(text: str, purpose: str) -> set[str]:
 
     Dependencies with the attribute `condition` are ignored. `text` has to be valid for catkin.
     """
-    # The import takes 50 ms, so it is inside the function.
+    # The import is inside the function because it takes 50 ms.
     from catkin_pkg.package import parse_package_string
 
     package = parse_package_string(text)

@@ -31,13 +31,13 @@ MANIFEST = "package.xml"
 MODULES = ("lib/python3/dist-packages",)
 # The pattern matches the MD5 sum in a module that genpy has generated.
 MD5 = re.compile(r"""^  _md5sum *= *["']([0-9a-f]{32})["']""", re.MULTILINE)
-KINDS = (".srv", ".msg")  # Python packages whose names have these endings contain only generated modules.
+KINDS = (".srv", ".msg")  # Python packages with these endings contain only generated modules.
 
 
 def own_workspace() -> Path:
     """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` beside `notebooks`.
 
-    When notebooks are validated or graded, COURSE_WORKSPACE or COURSE_STATE is set, so that each run finds
+    When notebooks are validated or graded, COURSE_WORKSPACE or COURSE_STATE is set. Therefore, each run finds
     only its own packages. If only COURSE_STATE is set, the workspace is the folder `workspace` in
     COURSE_STATE.
     """
@@ -49,7 +49,7 @@ def own_workspace() -> Path:
 def make_own_workspace() -> Path:
     """Return the student's workspace; create its folder `src` if it is missing.
 
-    Raises SetupError if the tools of ROS do not work in the workspace; in this case, no file is changed.
+    Raises SetupError, and changes no file, if the tools of ROS do not work in the workspace.
     """
     root = own_workspace()
     problem = _unfit(root)
@@ -98,9 +98,9 @@ class OwnPackages:
     def refresh(self) -> str:
         """Make all built packages available to this process and to its child processes.
 
-        The packages' folders are added at the end of each search path, so a student's package cannot replace
-        a package of the course. The method returns a message if the definition of an imported type has
-        changed, or if a package.xml cannot be read; else "".
+        The packages' folders are added at the end of each search path. Therefore, a student's package cannot
+        replace a package of the course. The method returns a message if the definition of an imported type
+        has changed, or if a package.xml cannot be read. Otherwise, it returns "".
         """
         for name, folders in self._paths.items():
             _append(name, folders)
@@ -141,7 +141,7 @@ def _module_folders() -> list[str]:
 
 
 def _find_packages(source: Path) -> tuple[list[Path], list[str]]:
-    """Return the folders of the packages in `source`, and a message for each package.xml that is unreadable.
+    """Return the folders of the packages in `source`, and a message for each unreadable package.xml.
 
     The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and end with an error if one file is invalid.
     """
@@ -178,7 +178,7 @@ def _append(name: str, folders: list[Path]) -> None:
 
 
 def _follow(module: ModuleType) -> list[str]:
-    """Import a package's new types; if `module` contains a type that has changed, return this type's name."""
+    """Import a package's new types; return the name of a type that has changed in `module`."""
     if module.__name__.endswith(KINDS):
         # This import can fail while a build is running or after a failed build. The student sees the error at
         # the next import of the types.
