@@ -72,7 +72,7 @@ def at_this_load(seconds: float) -> float:
     """Return a time limit in s for work that takes at most `seconds` s on an idle machine.
 
     The limit grows with the load average of the last minute per core, up to `MOST` times `seconds`. With a
-    fixed limit, a program that only waits for a CPU would be treated as a program that never ends.
+    fixed limit, a slow program that waits for a CPU would look like a program that never ends.
     """
     load: float = os.getloadavg()[0] / (os.cpu_count() or 1)
     return seconds * min(max(load, 1.0), MOST)

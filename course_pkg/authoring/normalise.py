@@ -81,7 +81,7 @@ def _kept(metadata: CellMetadata) -> CellMetadata:
 
 
 def _number(cell: Cell, number: int) -> None:
-    """Set the execution count of a cell to `number`, unless the cell was never executed.
+    """Set the execution count of an executed cell to `number`; do not change other cells.
 
     The cells get increasing numbers, even if they ran in another order.
     """

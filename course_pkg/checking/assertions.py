@@ -28,7 +28,7 @@ class AssertionFailed(Exception):
 
 
 def matches(pattern: str) -> re.Pattern[str]:
-    """Return a condition for values whose text matches the regular expression `pattern`; case is ignored."""
+    """Return a condition for values with a text that matches the pattern `pattern`; case is ignored."""
     return re.compile(pattern, re.IGNORECASE | re.DOTALL)
 
 
@@ -107,12 +107,12 @@ class Results:
 
     @property
     def kept_goals(self) -> set[str]:
-        """The fulfilled goals if the check ends before its last assertion."""
+        """The goals that count as fulfilled if the check ends early, before its last assertion."""
         return self.marked - self.failed_goals
 
     @property
     def fulfilled_goals(self) -> set[str]:
-        """The fulfilled goals if the check runs completely."""
+        """The goals that count as fulfilled if the check runs to its end."""
         return (self.marked | self._goals.keys()) - self.failed_goals
 
     def goal_ended(self, goal: str, *, fulfilled: bool) -> None:

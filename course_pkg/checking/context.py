@@ -73,7 +73,7 @@ class CheckContext:
         """Mark a goal of the part as fulfilled: the goal earns its points even if a later assertion fails.
 
         Call this method after the assertions of the goal: if an assertion fails, the run ends before this
-        call. Call this method for the main goal of a part first, so that a program that does nothing earns no
+        call. Call this method for the main goal of a part first. A program that does nothing then earns no
         points for a later goal. If a `goal` block has also examined this goal, the assertions of the block
         must hold, too.
         """

@@ -1,4 +1,4 @@
-"""The running service. It contains the results, their model, and the teachers and students who may use it."""
+"""The running service: the results, their model, and the teachers and students who may use the service."""
 
 from __future__ import annotations
 

@@ -143,7 +143,10 @@ def _examined(planned: PartPlan, answers: Answers, run: Run, seed: int) -> Repor
 
 
 def _run(job: PartJob, run: Run) -> PartResult:
-    """Run a part. If the check gave no verdict, run the part again, unless the answer ran for a long time."""
+    """Run a part.
+
+    If the check gave no verdict, run the part again, except after a long run of the answer.
+    """
     for _ in range(TRIES):
         try:
             result = run(job)

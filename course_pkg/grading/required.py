@@ -1,4 +1,4 @@
-"""The files that grading needs for each chapter: the solution and the fixtures."""
+"""Checks that the files for grading exist: the solution and the fixtures of each chapter."""
 
 from __future__ import annotations
 

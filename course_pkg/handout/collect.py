@@ -80,7 +80,8 @@ def collect(options: Options) -> int:
     folder = _course_folder(options.folder)
     wanted = Wanted(chosen_chapters(listed=options.chapters))
     homes = homes_in(options.homes, read_students(options.students) if options.students else None)
-    # This call raises an error before anything is changed, if the folder contains files but no times.csv.
+    # If the folder contains files but no times.csv, this call raises an error. At this point, nothing has
+    # been changed.
     TimesTable(options.out)
     if os.geteuid() != 0:
         sys.stderr.write(

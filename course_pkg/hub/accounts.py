@@ -1,4 +1,4 @@
-"""The Linux accounts of the students: check their names, and create the missing accounts."""
+"""Checks the names of the students' Linux accounts, and creates the missing accounts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`course lab` starts a master, and JupyterLab with the course's settings. It ends both before it exits."""
+"""`course lab` starts a master and JupyterLab with the course's settings, and ends both before it exits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The start of JupyterLab's server: wait until the server answers at its address, and start a kernel."""
+"""Waits until JupyterLab's server answers at its address, and starts a kernel."""
 
 from __future__ import annotations
 

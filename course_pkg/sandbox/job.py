@@ -36,7 +36,7 @@ class WorkFile:
         return base64.b64decode(self.content)
 
     def below(self, folder: str) -> WorkFile:
-        """Return a copy of this object whose path begins with the folder `folder`."""
+        """Return a copy of this object; its path begins with the folder `folder`."""
         return replace(self, path=f"{folder}/{self.path}")
 
     def write(self, folder: Path) -> None:

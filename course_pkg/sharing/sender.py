@@ -1,7 +1,7 @@
 """Sends the results in the outbox to the class service, from a thread of the Jupyter server.
 
 The thread reads the outbox every 0.2 s. The thread deletes a result only after the service has stored this
-result. If the service does not answer, the thread tries again after pauses that grow from 0.5 s to 60 s.
+result. If the service does not answer, the thread tries again; the pauses grow from 0.5 s to 60 s.
 """
 
 from __future__ import annotations

@@ -153,8 +153,8 @@ class Settings(NamedTuple):
 class Folder:
     """The folder of a site during writing; it is a context manager.
 
-    After a `with` block without an exception, files of an earlier site are removed if the block has not
-    written them again.
+    If the `with` block raises no exception, the files of an earlier site that were not written again are
+    removed.
     """
 
     def __init__(self, path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The world of the turtles: their positions, their motion, and the lines of their pens.
+"""The world of the turtles: their positions and motion, and the lines of their pens.
 
 This module does not need ROS.
 

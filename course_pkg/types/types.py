@@ -189,7 +189,7 @@ def compile_message(name: str, text: str) -> MessageType:
 
 
 def _require_class(cls: MessageClass | ServiceClass, attribute: str, what: str) -> None:
-    """Raise UnknownType unless `cls` is a generated class of the expected kind."""
+    """Raise UnknownType if `cls` is not a generated class of the expected kind."""
     if hasattr(cls, attribute):
         return
     shown = getattr(cls, "__name__", repr(cls))

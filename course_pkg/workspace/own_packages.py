@@ -121,7 +121,7 @@ class OwnPackages:
             sys.stderr.write(f"{message}\n")
 
     def _rewritten(self) -> Iterator[ModuleType]:
-        """Yield the imported modules of this workspace whose files were written since the last refresh()."""
+        """Yield the imported modules of this workspace with files newer than the last refresh()."""
         inside = f"{self._devel}{os.sep}"
         for module in list(sys.modules.values()):
             file = getattr(module, "__file__", None) or ""

@@ -1,4 +1,4 @@
-"""Stores the exceptions that rospy catches in handlers, so that a check can show the student's lines."""
+"""Stores the exceptions that rospy catches in handlers; a check can then show the student's lines."""
 
 from __future__ import annotations
 

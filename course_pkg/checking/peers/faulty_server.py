@@ -102,7 +102,7 @@ class FaultyServer(ScriptedServer):
             return self.plan.popleft() if due else None
 
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
-        """Reply to the handshake, unless the next fault is Frozen.
+        """Reply to the handshake if the next fault is not Frozen.
 
         A probe, such as the probe of rosservice, removes no fault from the plan.
         """

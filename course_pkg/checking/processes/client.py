@@ -85,7 +85,10 @@ def _runner() -> Iterator[Channel]:
 
 @contextmanager
 def _started_runner() -> Iterator[Channel]:
-    """Start a check runner. It ends after the `with` block or with this process, even after SIGKILL."""
+    """Start a check runner.
+
+    The check runner ends after the `with` block or with this process, even after SIGKILL.
+    """
     if "ROS_MASTER_URI" not in os.environ:
         raise CheckError("The node does not exist yet. First run the set-up cell, which calls join().")
     ours, theirs = socket.socketpair()

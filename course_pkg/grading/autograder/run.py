@@ -1,4 +1,4 @@
-"""`course autograde` grades the submission in /autograder. It writes results.json even after an error.
+"""`course autograde` grades the submission in /autograder, and writes results.json even after an error.
 
 Gradescope starts the script `run_autograder` as root in a new container for each submission. The folder
 /autograder/source contains the unpacked zip file of the autograder: settings.json, and optionally the folder

@@ -1,4 +1,4 @@
-"""Runs a graded notebook with nbval, and finds the cells whose outputs differ from those of the solution."""
+"""Runs a graded notebook with nbval, and finds the cells with other outputs than the solution."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds the cells that define the names which an answer uses.
+"""Finds the cells that define the names in an answer.
 
 An answer is run only with the cells that its check needs (see checking/fixtures.py). However, an answer can
 also use names from other cells, such as an import in a cell above or a function of an earlier answer.

@@ -201,7 +201,7 @@ def _about(grade: Grade) -> str:
 
 
 def _inconclusive(grade: Grade) -> list[str]:
-    """Return a sentence for each part whose check could not finish."""
+    """Return a sentence for each part with a check that could not finish."""
     return [
         f"{report.check} has 0 points, because the check could not finish. Look at the answer. "
         f"{clean.line(report.note, 160)}"

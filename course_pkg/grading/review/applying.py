@@ -18,7 +18,7 @@ SHOWN = 10  # A line lists at most this many names.
 def answer_of(grade: Grade, part: str) -> str:
     """Return a short text that identifies an answer: a digest of the student's code.
 
-    The returned text begins with a letter, so that a spreadsheet does not read it as a number.
+    The returned text begins with a letter; a spreadsheet therefore does not read it as a number.
     """
     code = clean.code(grade.code.get(part, ""))
     return f"v{hashlib.sha256(code.encode()).hexdigest()[:10]}"

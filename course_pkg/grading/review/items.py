@@ -73,8 +73,8 @@ def items_of(grades: Sequence[Grade]) -> list[Item]:
 def is_unfinished(item: Item, overrides: Overrides) -> bool:
     """Return whether an instructor has to examine an answer.
 
-    An instructor has to examine an answer if the check gave no result and there is no review, or if the
-    answer has changed after the review.
+    An instructor has to examine an answer in two cases. In the first case, the check gave no result and there
+    is no review. In the second case, the answer has changed after the review.
     """
     if row := overrides.rows.get(item.key):
         return is_outdated(row, item.grade)

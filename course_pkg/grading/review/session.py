@@ -118,7 +118,7 @@ class Session:
     def undo(self) -> dict[str, Plain]:
         """Undo the last change, and return the restored rows.
 
-        In the result, `shown` is the number of the first answer whose row was restored.
+        In the result, `shown` is the number of the answer that belongs to the first restored row.
 
         Raises ValueError if there is nothing to undo, or if another program has changed one of the rows.
         """

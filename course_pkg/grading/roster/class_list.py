@@ -157,7 +157,7 @@ class _Search:
     def refuse_shared(self) -> None:
         """Mark students as unclear if the same row was found for several of them.
 
-        The instructor has to decide to which of these students the row belongs.
+        The instructor has to decide which of these students is the right one.
         """
         by_line: dict[int, list[str]] = {}
         for student, person in self.found.items():

@@ -1,4 +1,4 @@
-"""The dask cluster of `course grade --scheduler`: waits for workers, and detects the loss of all workers."""
+"""Uses the dask cluster of `course grade --scheduler`: waits for workers, and detects their loss."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A private network: Linux namespaces, which other processes can enter through file descriptors.
+"""A private network consists of Linux namespaces; processes enter them through file descriptors.
 
 Programs in a private network can connect only to each other. Other users and other private networks of the
 same user cannot use the ports and abstract sockets of these programs. root needs only a network namespace.

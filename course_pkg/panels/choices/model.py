@@ -113,7 +113,7 @@ class ChoicesModel:
         return [Verdict(chosen, chosen == case.answer, case.answer, case.reason) for case, chosen in pairs]
 
     def choose(self, number: int, option: str) -> ChoiceRecord:
-        """Store the choice for case `number` (the first case is 0), unless the panel shows the reasons."""
+        """Store the choice for case `number` (from 0); do nothing if the panel shows the reasons."""
         record = self.record
         if record.shown or option not in self.options:
             return record

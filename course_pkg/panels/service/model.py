@@ -141,7 +141,7 @@ class ServiceModel:
             self._changed(draft=self.draft, check=form.checked(self.draft))
 
     def start(self, draft: Draft, deadline: str) -> None:
-        """Call the service on a new thread, unless a call is running or the form has an error."""
+        """Call the service on a new thread; do nothing if a call is running or the form has an error."""
         with self._turn:
             if self._under_way or not self.form:
                 return

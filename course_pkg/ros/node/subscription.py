@@ -1,4 +1,4 @@
-"""A subscription that stores its messages, so that a cell can wait for messages without a callback."""
+"""A subscription that stores its messages; a cell can then wait for messages without a callback."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Subscription:
         """Unsubscribe; the stored messages are not deleted.
 
         A second call has no effect. Raises MasterUnreachable or MasterSilent when the master does not answer.
-        After stop(), no further messages are stored. This is also true if stop() raises an error.
+        After stop(), no further messages are stored, even if stop() raises an error.
         """
         self._active = False
         subscriber, self._subscriber = self._subscriber, None

@@ -52,9 +52,8 @@ class Watchdog:
             for action in due:
                 action()
             with self._changed:
-                # While `_wake` is infinite, each call of arm() wakes up this thread. Another thread may call
-                # arm() while the next lines run. While `_wake` is infinite, each call of arm() wakes up this
-                # thread.
+                # Another thread may call arm() while the next lines run. Because `_wake` is infinite at
+                # first, each call of arm() wakes up this thread.
                 self._wake = math.inf
                 earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
                 self._wake = max(earliest, now + REPEAT) if due else min(earliest, now + LINGER)

@@ -83,9 +83,9 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """Skip an unregistration in rospy that would wait for ever for a master that does not answer.
+    """During the `with` block, skip unregistrations if the master does not answer.
 
-    The unregistration is skipped only during the `with` block.
+    Otherwise, rospy would wait for ever.
     """
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)

@@ -112,7 +112,7 @@ class ThreadErrors(logging.Handler):
         threading.excepthook = self._thread_ended
 
     def forget(self) -> None:
-        """Delete the list of the shown errors, so that each error can be shown again."""
+        """Delete the list of the shown errors; each error can then be shown again."""
         self._shown.clear()
 
     def emit(self, record: logging.LogRecord) -> None:
@@ -126,7 +126,7 @@ class ThreadErrors(logging.Handler):
             self._show(ended.exc_value)
 
     def _show(self, error: BaseException) -> None:
-        """Show the error `error`, unless the same error is already shown below the current cell."""
+        """Show the error `error`; do nothing if the cell's output already contains the same error."""
         text = "\n".join(readable_traceback(error, self._place_of, HANDLER_HEADER))
         if text not in self._shown:
             self._shown.add(text)

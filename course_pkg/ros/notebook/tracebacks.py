@@ -14,7 +14,7 @@ import course_pkg
 
 LINES = 12  # A traceback has at most this number of lines.
 WIDTH = 100  # A front end breaks a line that is longer than this number of characters.
-MESSAGE_LINES = 6  # At most this number of lines is for the message; two calls still fit.
+MESSAGE_LINES = 6  # A message has at most this number of lines; two calls still fit.
 MORE = " … (%tb shows the rest)"
 # Folders with these names contain installed libraries, including the libraries of ROS.
 INSTALLED = ("site-packages", "dist-packages")

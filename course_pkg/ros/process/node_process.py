@@ -121,7 +121,8 @@ class NodeProcess:
             return
         ports = self._process.listening_ports() if unregister else frozenset()
         self._process.end(grace)
-        # A killed node could not unregister itself, nor could a node that ended during its registration.
+        # A killed node could not unregister itself. The same is true for a node that ended during its
+        # registration.
         if registered := registered_at(ports):
             with suppress(GraphError):
                 withdraw(MasterClient(master_uri()), registered)

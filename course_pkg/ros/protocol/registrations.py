@@ -65,8 +65,8 @@ def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Regist
     """Unregister the node if it is registered with this address; a newer node of the same name stays.
 
     If a second process registers with the same node name, the master deletes the registrations of the first
-    process (rosmaster/registrations.py). All registrations under a node name therefore belong to the process
-    whose address is registered.
+    process (rosmaster/registrations.py). Therefore, all registrations under a node name belong to the process
+    that has the registered address.
     """
     if master.lookup_node(node) != node_uri:
         return []
@@ -74,7 +74,7 @@ def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Regist
 
 
 def withdraw_below(master: MasterClient, prefix: str) -> list[Registration]:
-    """Unregister all nodes whose names begin with this prefix, even if they are still running."""
+    """Unregister all nodes with names that begin with this prefix, even running nodes."""
     nodes = [node for node in master.system_state().nodes if node.startswith(prefix)]
     return withdraw(master, registrations(master, nodes)) if nodes else []
 

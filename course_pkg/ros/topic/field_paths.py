@@ -18,7 +18,7 @@ MOST = 200
 
 # A measurement is most probably a float, and least probably a bool.
 _NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)
-# These fields are not measurements: the time and the frame of a measurement, and the limits of the sensor.
+# These fields are not measurements: a measurement's time and frame, and the limits of the sensor.
 _HEADER = "std_msgs/Header"
 _SETTING = re.compile(r"(^|_)(min|max|increment|scan_time|field_of_view)(_|$)")
 

@@ -1,4 +1,4 @@
-"""The kernel's interface to a topic process: start the process, send commands, and receive reports."""
+"""The kernel uses this module to start a topic process, send commands to it, and receive reports."""
 
 from __future__ import annotations
 

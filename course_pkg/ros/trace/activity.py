@@ -57,8 +57,8 @@ class Activity:
     """All counts of one poll.
 
     `at` is a value of time.monotonic(). `silent` contains the nodes that returned no valid response.
-    `callers` maps each service to its callers, the latest caller first. `callers` omits services whose
-    servers do not count callers.
+    `callers` maps each service to its callers, the latest caller first. A service has no entry in `callers`
+    if its server does not count callers.
     """
 
     at: float

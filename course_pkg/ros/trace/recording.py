@@ -89,9 +89,9 @@ class Recording:
 
     The recording is empty until the block has ended.
 
-    `events` are sorted by their start. `nodes` are the nodes whose records are included. `unrecorded` gives
-    the reason for each node without a record. `notes` describes all other missing data. `length` is in s, and
-    `node` is the kernel's node.
+    `events` are sorted by their start. `nodes` are the nodes with a record in this recording. `unrecorded`
+    gives the reason for each node without a record. `notes` describes all other missing data. `length` is in
+    s, and `node` is the kernel's node.
     """
 
     node: str = ""

@@ -128,8 +128,9 @@ def clear(users: Users) -> None:
 def _kill_all(uid: int, killer: int) -> None:
     """Kill all processes of a user in one system call; then no process can fork before its end.
 
-    The killing process has the effective user id `uid`. It may therefore kill these processes. Its real and
-    saved user ids are `killer`, so these processes cannot send signals to the killing process.
+    The killing process has the effective user id `uid`. The killing process may therefore kill the user's
+    processes. The real and saved user ids of the killing process are `killer`, so the user's processes cannot
+    send signals to it.
     """
     if not (pid := os.fork()):
         try:
@@ -196,8 +197,8 @@ def _remove(path: str) -> None:
 def refusal(hidden: Iterable[Path] = ()) -> str:
     """Return why this machine cannot run students' code as another user, or "" if it can.
 
-    The user who runs students' code must be able to read the course and the environment, but must not be able
-    to read the checks, the solutions or the paths in `hidden`.
+    The user who runs students' code must be able to read the course and the environment. This user must not
+    be able to read the checks, the solutions or the paths in `hidden`.
     """
     if os.geteuid() != 0:
         return "Only root can run students' code as another user."

@@ -1,4 +1,4 @@
-"""Identical and nearly identical answers of different students."""
+"""Finds identical and nearly identical answers of different students."""
 
 from __future__ import annotations
 

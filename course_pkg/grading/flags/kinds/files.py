@@ -1,4 +1,4 @@
-"""Answers that read files or run programs although the exercise requires no files or programs."""
+"""Finds answers that read files or run programs although the exercise does not need this."""
 
 from __future__ import annotations
 

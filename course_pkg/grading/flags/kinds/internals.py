@@ -1,4 +1,4 @@
-"""Answers that use internal code of the course, or that inspect other code in their process."""
+"""Finds answers that use internal code of the course or inspect other code in their process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Answers that change a module or an imported class, so that other code behaves differently."""
+"""Finds answers that change a module or an imported class, and thereby the behaviour of other code."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The course's own solution, submitted as an answer."""
+"""Finds the course's own solution, submitted as an answer."""
 
 from __future__ import annotations
 

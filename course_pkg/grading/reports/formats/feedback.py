@@ -106,7 +106,7 @@ def _printed(report: Report) -> str:
 
 
 def _cells(grade: Grade) -> Iterator[str]:
-    """Yield the result of nbval, with the cells whose outputs differ from the solution's outputs."""
+    """Yield the result of nbval, and the cells with other outputs than the solution."""
     if not grade.cells:
         return
     others = [cell for cell in grade.cells if cell.outcome != "passed"]
