@@ -1,8 +1,8 @@
 """Run the commands of `course`.
 
 Each package declares its commands in its module `commands.py`. This module imports only the standard library
-and the modules `commands.py`. Therefore, any Python interpreter can run it before the set-up of the course. A
-command imports other modules when it runs.
+and the modules `commands.py`. Therefore, any Python interpreter can run this module before the set-up of the
+course. A command imports other modules when it runs.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ def version_folder(checkout: Path) -> Path | None:
 
 
 def own_folder(checkout: Path) -> Path:
-    """Return the folder with the user's notebooks and workspace. In a checkout, it is the checkout.
+    """Return the folder with the user's notebooks and workspace. In a checkout, the result is the checkout.
 
     For a shared installation, the result is the folder in the variable COURSE_HOME, or ~/ros-course.
     """

@@ -87,8 +87,8 @@ class Results:
     """The assertions that were checked, and the last call that the check made."""
 
     def __init__(self) -> None:
-        # This function returns the check's last call as text. It is called only if a check fails. The
-        # function is called only if a check fails.
+        # This function returns the check's last call as text. The function is called only if a check fails.
+        # The function is called only if a check fails.
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
         self.marked: set[str] = set()  # The check has marked these goals as fulfilled.

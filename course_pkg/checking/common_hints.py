@@ -8,7 +8,7 @@ NO_RETURN = "The function ended without a return statement, so it returned None.
 # This pattern matches the message of a handler's ServiceException, but not rospy's message about a wrong
 # return value.
 REFUSED_BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")
-# If a handler raises another exception than ServiceException, rospy sends this error message to the client.
+# If a handler raises an exception other than ServiceException, rospy sends this error message to the client.
 HANDLER_RAISED: Hints = [
     (
         matches(r"error processing request: .*takes 1 positional argument but 2 were given"),

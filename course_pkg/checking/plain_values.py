@@ -23,8 +23,8 @@ ITEMS = 10_000
 def of_kind(kind: type[Item], value: Json, name: str) -> Item:
     """Return the value, which must be an instance of the class `kind`.
 
-    Raises CheckError for a value of another class. Then student code has changed an object that the check
-    keeps in the kernel.
+    Raises CheckError for a value of another class. Such a value means that student code has changed an object
+    of the check in the kernel.
     """
     if not isinstance(value, kind):
         raise CheckError(

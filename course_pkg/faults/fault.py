@@ -9,7 +9,7 @@ from course_pkg.faults.stage import Stage
 
 HANG = 2.0  # A program that still runs after this time in s probably waits for ever.
 START = 2.0  # A command gets this additional time in s, because its process has to start first.
-TIMEOUT = 10.0  # A program with an expected end has to end within this time in s.
+TIMEOUT = 10.0  # A program that should end has to end within this time in s.
 
 
 @dataclass(frozen=True)

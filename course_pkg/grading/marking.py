@@ -30,8 +30,8 @@ class Answers:
 
     A submitted package replaces the package that the cells of the notebook write into src. If the package
     contains all files of a part, the check uses the package and the notebook's cells do not run. The reason
-    is that the student may have changed the files in an editor. Otherwise, the cells write the missing files.
-    `problem` says why there is no notebook.
+    is that the student may have changed the files in an editor. If the package lacks a file, the cell that
+    writes this file is used. `problem` says why there is no notebook.
     """
 
     packages: tuple[Package, ...]

@@ -55,8 +55,8 @@ class Options:
 def serve_hub(options: Options) -> int:
     """Prepare the hub, print its address, and run it until Ctrl-C; return 0 or the hub's exit status.
 
-    Raises HubError or HandoutError if an option is wrong, or if this machine cannot run the hub. Nothing has
-    been started then.
+    Raises HubError or HandoutError if an option is wrong, or if this machine cannot run the hub. In both
+    cases, nothing has been started yet.
     """
     places = Places.of()
     base = data_folder(places, options.data)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from course_pkg.errors import SetupError
 
-# jupyterlab_server's file name for the workspace "default". It contains the name, and the first digits of the
-# name's SHA-256 sum.
+# jupyterlab_server's file name for the workspace "default". The file name contains the word "default", and
+# the first digits of the SHA-256 sum of this word.
 WORKSPACE = "default-37a8.jupyterlab-workspace"
 
 

@@ -79,7 +79,7 @@ class PartJob:
 
     @property
     def limit(self) -> float:
-        """The time limit for this part in s; then all processes of the part are ended."""
+        """The time limit for this part in s; at this limit, all processes of the part are ended."""
         return at_this_load(self.setup_timeout + self.answer_timeout * len(self.answers) + self.deadline)
 
     def as_json(self) -> str:

@@ -69,8 +69,8 @@ def supervise(
         wait_until(lambda: _listens(port), MASTER_TIMEOUT, 0.002)
         student = _start(lambda: _run_student(job, shell, messages, isolation))
         _start(lambda: _run_commands(commands, isolation))
-        # Only if no other process has this socket open, the check runner notices the end of the command
-        # runner.
+        # The check runner notices the end of the command runner only if no other process has this socket
+        # open.
         os.close(commands)
         descriptors = network.fileno(), listener.fileno()
         send(fork_server, {"supervisor": os.getpid(), "port": port, "student": student}, descriptors)

@@ -37,8 +37,8 @@ LIMITS = {
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
     supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
 }
-# A supervisor ends the processes of a part when it exceeds a limit. The check may then report one of these
-# verdicts only because the processes have ended.
+# A supervisor ends the processes of a part when the part exceeds a limit. The check may then report one of
+# these verdicts only because the processes have ended.
 STOPPED = (Verdict.FAILED, Verdict.UNDECIDED)
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",

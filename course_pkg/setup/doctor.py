@@ -149,7 +149,7 @@ def _answering(uri: str, host: str, port: int) -> Finding:
 
 
 def _leftovers(places: Places) -> Iterator[Finding]:
-    """Find running processes of this checkout without a parent process.
+    """Find processes of this checkout that still run after the end of their parent process.
 
     After a SIGKILL of the parent, a supervisor normally ends its child within seconds.
     """
@@ -161,7 +161,7 @@ def _leftovers(places: Places) -> Iterator[Finding]:
 
 
 def _orphans(places: Places) -> set[str]:
-    """Return the ids of the processes of this checkout that have no parent any more."""
+    """Return the ids of the processes of this checkout that run after the end of their parent process."""
     found = set()
     for status in Path("/proc").glob("[0-9]*/stat"):
         try:

@@ -78,7 +78,7 @@ def dependency(cls: MessageClass, name: str) -> MessageClass:
 class _Generation:
     """Generates one type, and the message types that it depends on.
 
-    `classes` contains the classes of the dependencies. If the type is built and its definition has not
+    `classes` contains the classes of the dependencies. If a dependency is built and its definition has not
     changed since the build, its class is the built class. Otherwise, its class is new.
     """
 

@@ -2,7 +2,7 @@
 
 CMake breaks its messages into lines of about 75 characters. A message contains the name of the file that
 reported the error. The student's line is in the call stack below the message. Each row of a table of messages
-is (pattern, file, problem, remedy). If `file` is empty, the fault is in the file that the message contains.
+is (pattern, file, problem, remedy). If `file` is empty, the message contains the name of the wrong file.
 """
 
 from __future__ import annotations

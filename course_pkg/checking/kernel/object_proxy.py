@@ -71,7 +71,7 @@ class ObjectProxies:
             self._drop()
             raise ConnectionError(OVER) from error
         except BaseException:
-            # Without this call, a later call would read the reply to the failed call.
+            # If the connection stayed open, a later call would read the reply to the failed call.
             self._drop()
             raise
         if "placed" in reply:

@@ -67,7 +67,7 @@ class Node:
     def forget_topics(self, made: Callable[[str], bool]) -> None:
         """Unregister all publishers and subscribers of each topic for which `made` returns True.
 
-        A student's function may not have unregistered its publishers and subscribers.
+        A student's function can leave publishers and subscribers registered.
         """
         entries = registrations(self.master)
         withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])

@@ -20,8 +20,8 @@ class Publisher:
 
     If `once` is true, the publisher begins as soon as there is a subscriber, and ends after the last message.
     `sent` contains the times of the messages in s of time.monotonic(). `subscribers` contains the number of
-    connected subscribers at each of these times. After a subscriber has disconnected, up to two more messages
-    may count it.
+    connected subscribers at each of these times. A disconnected subscriber may be counted for two more
+    messages.
     """
 
     def __init__(

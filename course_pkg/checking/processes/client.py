@@ -36,8 +36,8 @@ def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report
     """Let a separate node examine the part `check_id`, such as "05.1", and return the report.
 
     `namespace` contains the names that the student has defined. If `namespace` is None, the names of the
-    notebook are used. The report shows an error of the check. The only exception is KeyboardInterrupt; it is
-    raised after the check runner has ended.
+    notebook are used. Errors of the check appear in the report. The only exception is KeyboardInterrupt; it
+    is raised after the check runner has ended.
     """
     check_id = str(check_id)
     if threading.current_thread() is not threading.main_thread():

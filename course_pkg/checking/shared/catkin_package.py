@@ -78,7 +78,7 @@ class BuiltPackage:
     def md5(self, type_name: str, request: Message = None) -> tuple[str, str]:
         """Import a service type in Python; return (its MD5 sum, ""), or ("", the error output).
 
-        If `request` is given, assert that the type serialises `request` correctly. Its fields have to be
+        If `request` is given, the type must also serialise this request correctly. Its fields have to be
         numbers.
         """
         line = f"from {self.package.name}.srv import {type_name}; print({type_name}._md5sum)"

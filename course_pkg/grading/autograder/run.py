@@ -115,8 +115,8 @@ def _grade(submission: Submission, points: PointsTable, run: Run) -> Grade:
 def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
     """Yield a function that runs one part of the submission.
 
-    At the time limit of the autograder, the yielded function stops the running part. It runs no other part
-    after this.
+    At the time limit of the autograder, the yielded function stops the running part. After this, the function
+    runs no other part.
     """
     with SandboxWorker(users=weaker, private=private) as worker:
 

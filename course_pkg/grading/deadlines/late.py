@@ -41,8 +41,8 @@ def late_policy(
 ) -> LatePolicy:
     """Return the policy from the options --late-per-day (percent) and --late-max-days.
 
-    Raises GradingError if a number is out of range. A policy also needs `table` or `deadlines`, and these two
-    arguments need a policy; otherwise, GradingError is raised.
+    Raises GradingError if a number is out of range. Also raises GradingError for a policy without `table` and
+    `deadlines`, and for `table` or `deadlines` without a policy.
     """
     if (table or deadlines) and per_day is None and max_days is None:
         raise GradingError(

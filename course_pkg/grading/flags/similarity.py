@@ -7,7 +7,7 @@ bits. The similarity of two answers is twice the weight of their common features
 weights of both answers.
 
 Two short answers to the same exercise can be similar by chance. Therefore, a pair of students is flagged only
-in one of two cases. In the first case, they have one nearly identical answer with enough rare features, or
+in one of two cases. In the first case, the pair has one nearly identical answer with enough rare features, or
 with enough rare comments, strings and names. Here, something is rare if at most one other student has it. In
 the second case, the pair has several nearly identical answers. For each of these answers, p is the fraction
 of all pairs of students with answers that are at least as similar. This fraction is an estimate of the

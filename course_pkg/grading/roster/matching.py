@@ -39,7 +39,8 @@ class People:
     def find(self, known: Person, text: str = "") -> Match:
         """Return the row that belongs to the person `known`.
 
-        `text` is a folder name that an instructor chose. It can be the value of any field of the student.
+        `text` is a folder name that an instructor chose. The name can be the value of any field of the
+        student.
         """
         proposals = [rows for rows in self._proposals(known, text) if rows]
         if not proposals:

@@ -147,7 +147,7 @@ def _stays_inside(name: str) -> bool:
 def refuse_inside(path: Path, checkout: Path) -> None:
     """Raise HandoutError if `path` is in the checkout.
 
-    The next release would contain a release in the checkout.
+    Otherwise, the next release would contain this release.
     """
     if path.resolve().is_relative_to(checkout.resolve()):
         raise HandoutError(f"{path} is inside the course's own folder. Give a folder outside {checkout}.")

@@ -1,5 +1,7 @@
 """times.csv contains the time of the last change of each collected file.
 
+The grader compares these times with the deadlines.
+
 The columns are student, chapter, file and time. The column `file` contains a path relative to the folder of
 submissions. The column `time` contains the file's modification time in ISO 8601 with a time zone. A package
 has a row for each of its files, and a row for its folder with the time of its newest file. If several

@@ -70,7 +70,7 @@ class Graph:
         self.outgoing = facts["outgoing"]
 
     def leave(self) -> None:
-        """Leave the graph. If no other command uses it, wait until its processes have ended."""
+        """Leave the graph. If no other command uses the graph, wait until its processes have ended."""
         received = b""
         with self._connection, suppress(OSError):
             self._connection.shutdown(socket.SHUT_WR)

@@ -1,9 +1,10 @@
 """A private network consists of Linux namespaces; processes enter them through file descriptors.
 
 Programs in a private network can connect only to each other. Other users and other private networks of the
-same user cannot use the ports and abstract sockets of these programs. root needs only a network namespace.
-Other users also need a user namespace. In a user namespace, users have their names and file permissions but
-cannot become another user. Therefore, `sudo` does not work. See network_namespaces(7) and user_namespaces(7).
+same user cannot use the ports and abstract sockets of these programs. The user root needs only a network
+namespace. Other users also need a user namespace. In a user namespace, users have their names and file
+permissions but cannot become another user. Therefore, `sudo` does not work. See network_namespaces(7) and
+user_namespaces(7).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Prepare a node after init_node(): it ignores idle connections, and records its calls and messages.
+"""Prepare a node after init_node(): the node then ignores idle connections, and records its activity.
 
 In rospy, one thread accepts all connections and also reads their headers. If a client connects and sends
 nothing, the node accepts no other connections to its services and topics. In a prepared node, the thread that

@@ -69,8 +69,8 @@ class BoundedProxy(rospy.ServiceProxy):
         """End all running calls; each call raises CallCancelled in the thread that made it."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            # The call may have ended before arm() added this action to the watchdog. Then the next line
-            # removes the action.
+            # The call may have ended before arm() added this action to the watchdog. In this case, the next
+            # lines remove the action.
             if call.over:
                 self._disarm(call)
 

@@ -119,7 +119,7 @@ class PrivateMaster:
 def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> None:
     """Return as soon as the master at ROS_MASTER_URI answers.
 
-    Unlike the wait in init_node(), Ctrl-C can interrupt this function. `interval` is the time in s between
+    Ctrl-C can interrupt this function, but not the wait in init_node(). `interval` is the time in s between
     two polls of the master. If no master answers, the function `warn` is called once. Raises
     MalformedMasterUri if the URI is invalid, and NotAMaster if another program answers.
     """

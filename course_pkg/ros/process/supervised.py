@@ -110,8 +110,8 @@ class SupervisedProcess:
         """Return (SHA-256 sum, name) of each file that the command and its descendants execute.
 
         If a process has loaded the library of an interpreter (libpython), the library is also in the result.
-        Its sum is an empty string. The result is empty if the kernel does not report the executed files, for
-        example in an emulator.
+        In the result, the sum of the library is an empty string. The result is empty if the kernel does not
+        report the executed files, for example in an emulator.
         """
         import psutil  # This import takes 15 ms, and most programs do not need it.
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 RpcValue = Union[bool, int, float, str, bytes, None, "list[RpcValue]", "dict[str, RpcValue]"]
 
-# http.client raises one of these errors if the server has closed an idle connection.
+# One of these errors means that the server has closed an idle connection.
 STALE = (ConnectionResetError, ConnectionAbortedError, BrokenPipeError, HTTPException)
 # ask() raises one of these errors if a response is not valid XML-RPC, or is a fault.
 NO_ANSWER = (HTTPException, ExpatError, Fault, LookupError, TypeError, ValueError)

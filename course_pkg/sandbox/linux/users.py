@@ -85,8 +85,8 @@ def run_confined(work: Callable[[], None], uid: int) -> NoReturn:
 def make_folder(users: Users) -> str:
     """Make the folders of a part, and return the student's work folder.
 
-    The folder `commands` next to the work folder belongs to the command runner. It also contains the command
-    runner's temporary files.
+    The folder `commands` next to the work folder belongs to the command runner. This folder also contains the
+    command runner's temporary files.
     """
     base = Path(tempfile.mkdtemp(prefix="course-grading-"))
     base.chmod(0o755)
