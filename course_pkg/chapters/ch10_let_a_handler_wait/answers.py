@@ -96,6 +96,24 @@ replace("return messages", "return list(messages)")
 replace("thread.join()", "thread.join(0.2)")
 # %% 10.1 wrong: joins each thread with a time limit of 1 s | hint: call join() of every thread without
 replace("thread.join()", "thread.join(timeout=1)")
+# %% 10.1 wrong: returns only the messages of successful responses | hint: The messages of the responses with success=False are missing
+def call_at_once(name, count):
+    messages = []
+
+    def call():
+        response = rospy.ServiceProxy(name, Trigger)()
+        if response.success:
+            messages.append(response.message)
+
+    threads = [threading.Thread(target=call) for _ in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return messages
+
+# %% 10.1 wrong: joins each thread with a time limit of 2 s | hint: call join() of every thread without
+replace("thread.join()", "thread.join(timeout=2)")
 # %% 10.1 wrong: returns a dict of the messages | hint: The list does not contain the right messages
 replace("return messages", "return {message: True for message in messages}")
 # %% 10.1 wrong: omits the return line | hint: without a return statement
@@ -196,6 +214,8 @@ replace("watch.next(request.after)", "watch.next()", times=2)
 replace("timeout=request.patience", "timeout=5")
 # %% 10.2 wrong: treats the field `patience` as milliseconds | hint: The handler returned too early
 replace("timeout=request.patience", "timeout=request.patience / 1000")
+# %% 10.2 wrong: rounds the field `patience` down | hint: The handler waited only for the whole seconds of request.patience
+replace("timeout=request.patience", "timeout=int(request.patience)")
 # %% 10.2 wrong: passes a value to wait_for instead of a function | hint: The argument of `wait_for` has to be a function, because `wait_for` calls this function
 replace("watch.changed.wait_for(lambda: ", "customer = watch.changed.wait_for(")
 replace("\n        customer = watch.next(request.after)", "")
@@ -343,6 +363,29 @@ based_on("uses a loop with a deadline, and notify")
 replace("notify", "notify_all")
 replace("\n        end = time.monotonic() + self.limit", "")
 replace("left = end … wait(left)", 'if not self.changed.wait(self.limit):\n                    return False, "empty"')
+# %% 10.3 wrong: begins the time limit again after each wake-up | hint: The handler of /take waits longer than the time limit
+class Basket:
+    def __init__(self, limit):
+        self.limit = limit
+        self.items = 0
+        self.changed = threading.Condition()
+
+    def handle_put(self, request):
+        with self.changed:
+            self.items += 1
+            self.changed.notify()
+            return TriggerResponse(success=True, message=str(self.items))
+
+    def handle_take(self, request):
+        with self.changed:
+            while self.items == 0:
+                if not self.changed.wait(self.limit):
+                    return TriggerResponse(success=False, message="empty")
+            self.items -= 1
+            return TriggerResponse(success=True, message=str(self.items))
+
+
+basket = Basket(5)
 # %% 10.3 wrong: sleeps while it holds the lock | hint: /put did not respond while a call of /take was waiting
 based_on("uses a loop with a deadline, and notify")
 replace("self.changed.wait(left)", "time.sleep(0.05)")
@@ -601,6 +644,9 @@ replace("threading.Lock()", "threading.Lock()\n        self.request_id = str(uui
 replace("str(uuid.uuid4()),", "self.request_id,")
 # %% 10.5 wrong: takes the ids from a counter | hint: The ids come from a
 replace("str(uuid.uuid4())", "str(next(NUMBERS))")
+replace("class Shop", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\nclass Shop")
+# %% 10.5 wrong: takes the ids from a counter with the number of the shop | hint: The ids come from a
+replace("str(uuid.uuid4())", 'f"shop1-{next(NUMBERS)}"')
 replace("class Shop", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\nclass Shop")
 # %% 10.5 wrong: sends no id | hint: The field `request_id` is empty
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(cents=self.cents).receipt")

@@ -21,8 +21,8 @@ LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
 # The student's function must return within this time in s after the last response. If a function sleeps for a
 # fixed time instead of joining its threads, it can take longer.
 PROMPT = 0.3
-# In one run, two calls take a random time between these limits (s). The time is longer than two joins with a
-# timeout of 1 s.
+# In one run, a single call takes a random time between these limits (s). The time is longer than a join with
+# a timeout of 2 s.
 SHORTEST, LONGEST = 2.2, 2.8
 # If the student's function returns too late, the check adds a run in which each call takes this additional
 # time in s.
@@ -100,7 +100,7 @@ class Gate:
     def __call__(self, _: Message) -> dict[str, Json]:
         """Handle a request: wait for the other clients, and return the next text in the list."""
         with self._changed:
-            word = self._words[self.requests % len(self._words)]
+            number = self.requests % len(self._words)
             self.requests += 1
             self._inside += 1
             self.most = max(self.most, self._inside)
@@ -112,7 +112,8 @@ class Gate:
         with self._changed:
             self._inside -= 1
             self.answered = time.monotonic()
-        return {"success": True, "message": word}
+        # Some responses have success=False, and their messages count, too.
+        return {"success": number % 3 != 1, "message": self._words[number]}
 
 
 NOT_TOGETHER: Hints = [
@@ -157,14 +158,14 @@ ERRORS = [
 def calls_at_once(context: CheckContext) -> None:
     """Run the student's function with few and with many clients; the server waits for all of their calls.
 
-    In a run with two clients, the calls take longer. Therefore, a function that uses join() with a short
+    In a run with one client, the call takes longer. Therefore, a function that uses join() with a short
     timeout returns too early. The order of the runs is random.
     """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:
         few = context.random.integer(3, 4)
-        slow = (2, context.random.number(SHORTEST, LONGEST))
+        slow = (1, context.random.number(SHORTEST, LONGEST))
         runs = context.random.shuffled([slow, (few, 0.0), (context.random.integer(24, 36), 0.0)])
         late = max([_round(context, count, hold) for count, hold in runs])
         if late > PROMPT:
@@ -181,8 +182,8 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
     name = f"/{context.random.word()}"
     proxies = Proxies()
     context.place("checked_proxies", proxies)
-    word, *words = (context.random.word(8) for _ in range(count - 1))
-    words += [word, word]  # The last two responses contain the same message.
+    words = [context.random.word(8) for _ in range(max(count - 1, 1))]
+    words += words[-1:] * (count - len(words))  # The last two responses contain the same message.
     gate = Gate(count, words, hold)
     server = context.serve(name, TRIGGER, gate)
     result = context.run("call_at_once", name, count, within=LIMIT + hold, hints=ERRORS)
@@ -268,6 +269,15 @@ def _returned(context: CheckContext, words: list[str], found: Json) -> None:
                 "Two clients got the same message, but the result contains this message only once. "
                 "Append each message to a list, because a set and the keys of a dict contain each text "
                 "only once.",
+            ),
+            (
+                lambda actual: (
+                    isinstance(actual, list)
+                    and sorted(map(str, actual))
+                    == sorted(word for place, word in enumerate(words) if place % 3 != 1)
+                ),
+                "The messages of the responses with success=False are missing. Return the message of each "
+                "response.",
             ),
             (
                 lambda actual: isinstance(actual, list) and len(actual) < len(words),

@@ -16,8 +16,8 @@ DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
 SLACK = 1.5  # SLACK is the additional time in s that a call may take on a busy machine.
 # This value of `patience` (s) is for calls without a customer. A handler that waits twice as long exceeds the
-# time limit of the call.
-LONG = 2.0
+# time limit of the call. A handler that rounds the value down returns too early.
+LONG = 2.3
 # A customer comes after this time in s. A handler that polls twice per second then responds 0.48 s late.
 LATER = 0.52
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
@@ -64,6 +64,10 @@ RARELY = (
 HELD = (
     "The handler did not notice a new customer, because it holds the lock of `changed` while it "
     "sleeps. Use changed.wait_for(...), which releases the lock during the wait."
+)
+ROUNDED = (
+    "The handler waited only for the whole seconds of request.patience. This field can have digits after the "
+    "point, so use its value without rounding."
 )
 TOO_EARLY = (
     "The handler returned too early. If no customer is there, wait until request.patience seconds are over."
@@ -180,7 +184,11 @@ def _nobody(context: CheckContext, detect: Service) -> None:
             holds=patience - 0.1 <= detect.took < patience + SLACK,
             expected=f"a response after {patience:g} s",
             actual=f"a response after {detect.took:.1f} s",
-            hints=TOO_EARLY if detect.took < patience else FOREVER,
+            hints=FOREVER
+            if detect.took > patience
+            else ROUNDED
+            if 1.0 < int(patience) - 0.05 < detect.took
+            else TOO_EARLY,
         )
         context.require(
             "a waiting handler needs almost no processor time",
