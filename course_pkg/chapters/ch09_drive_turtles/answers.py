@@ -24,10 +24,20 @@ replace('    try:\n        rospy.wait_for_service("spawn", timeout=5)\n', '    t
 replace(', timeout=5', '')
 # %% 09.1 wrong: waits for only two seconds | hint: The program stopped waiting too early
 replace('timeout=5', 'timeout=2')
-# %% 09.1 wrong: catches only the timeout of the wait | hint: The server refused the call. In this case, print
+# %% 09.1 wrong: catches only the timeout of the wait | hint: The program does not handle the exception of a refused call
 replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ROSException')
 # %% 09.1 wrong: catches only the error of the call | hint: The service did not start in time
 replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ServiceException')
+# %% 09.1 wrong: handles only one error message | hint: The program does not handle the exception of a refused call
+replace("rospy.ServiceException) as error:\n", "rospy.ServiceException) as error:\n        if isinstance(error, rospy.ServiceException) and \"already\" not in str(error):\n            raise\n")
+# %% 09.1 wrong: exits with status 0 after a refused call | hint: The server refused the call. In this case, print
+replace("        return 1\n", "        return int(not isinstance(error, rospy.ServiceException))\n")
+# %% 09.1 wrong: prints no message after a failure | hint: The program printed no message about the failure
+replace('        print("no turtle:", error, file=sys.stderr)\n', "")
+# %% 09.1 wrong: starts the node during an import, with init_node of rospy.client | hint: Move rospy.init_node and all lines after it
+replace("import rospy\n", "import rospy\nfrom rospy.client import init_node\n")
+replace("\n\n\ndef main():", '\n\ninit_node("spawn_turtle")\n\n\ndef main():')
+replace('    rospy.init_node("spawn_turtle")\n    sys', "    sys")
 # %% 09.1 wrong: does not pass the exit status to sys.exit | hint: The service did not start in time
 replace('sys.exit(main())', 'main()')
 # %% 09.1 wrong: prints the requested name | hint: The simulator chooses the name
@@ -138,6 +148,14 @@ replace('"toggle_forward"', '"toggle"')
 replace('"turtle1/cmd_vel"', '"turtle1/cmd_velocity"')
 # %% 09.2 wrong: also moves to the side | hint: A field of the velocity is not 0, but it has to be 0
 replace('        if forward:\n', '        message.linear.y = 0.5\n        if forward:\n')
+# %% 09.2 wrong: publishes each velocity one round late | hint: The first message after the call still contained the old velocity
+replace("        publisher.publish(message)\n        rate.sleep()", "        rate.sleep()\n        publisher.publish(message)")
+# %% 09.2 wrong: does not end after Ctrl-C | hint: Ctrl-C does not stop the program
+replace("import rospy\n", "import time\n\nimport rospy\n")
+replace("while not rospy.is_shutdown():", "while True:")
+replace("        publisher.publish(message)\n        rate.sleep()", "        try:\n            publisher.publish(message)\n        except rospy.ROSException:\n            pass\n        time.sleep(0.5)")
+# %% 09.2 wrong: confuses the rate with the period | hint: The program does not publish twice per second
+replace("Rate(2)", "Rate(0.5)")
 # %% 09.2 wrong: changes the direction in the loop, at most once per message | hint: The second call changed nothing
 replace('    global forward\n    forward = not forward', '    global called\n    called = True')
 replace('\nforward = True', '\nforward = True\ncalled = False')
@@ -176,7 +194,7 @@ replace('before=before', 'before=frequency')
 replace('(before=before)', '()')
 # %% 09.3 wrong: returns the old rate as an int | hint: Store the rate as a float in Python, or as a double in C++
 replace('before=before', 'before=int(before)')
-# %% 09.3 wrong: returns the old pause instead of the old rate | hint: The field `before` has a wrong value
+# %% 09.3 wrong: returns the old pause instead of the old rate | hint: The field `before` contains the pause between two messages
 replace('before=before', 'before=1 / before')
 # %% 09.3 wrong: accepts every rate | hint: is not allowed, but the client got a response
 replace('    if not 0 < request.rate <= 100:\n        raise rospy.ServiceException(f"{request.rate} is not above 0 and at most 100")\n', '    if request.rate == 0:\n        raise rospy.ServiceException("0")\n')
@@ -189,6 +207,20 @@ replace('    if not 0 < request.rate <= 100:\n', '    before, frequency = freque
 replace('    before = frequency\n    frequency = request.rate\n', '')
 replace('    used, rate = frequency, rospy.Rate(frequency)\n    while', '    used, rate = frequency, rospy.Rate(frequency)\n    while')
 replace('if used != frequency:', 'if used != frequency and 0 < frequency <= 100:')
+# %% 09.3 wrong: a refused rate changes the pause of the loop | hint: After a refused call, the program publishes at another rate
+based_on("sleeps for 1 / rate")
+replace("\nfrequency = 2.0", "\nfrequency = 2.0\npause = 0.5")
+replace("    global frequency\n", "    global frequency, pause\n    if request.rate > 0:\n        pause = 1 / request.rate\n")
+replace("rospy.sleep(1.0 / frequency)", "rospy.sleep(pause)")
+# %% 09.3 wrong: publishes at most 50 messages per second | hint: The program did not publish at the rate that the client had set
+based_on("sleeps for 1 / rate")
+replace("rospy.sleep(1.0 / frequency)", "rospy.sleep(max(1.0 / frequency, 0.02))")
+# %% 09.3 wrong: returns the rate that the loop uses | hint: The field `before` contains an older rate
+replace("before=before", "before=used")
+# %% 09.3 wrong: begins with one message per second | hint: The field `before` has a wrong value
+replace("\nfrequency = 2.0", "\nfrequency = 1.0")
+# %% 09.3 wrong: refuses rates below 1 | hint: The node refused an allowed rate
+replace("if not 0 < request.rate <= 100", "if not 1 <= request.rate <= 100")
 # %% 09.3 wrong: resets the rate in each toggle | hint: A call of /toggle_forward also changed the rate
 replace("global forward\n", "global forward, frequency\n    frequency = 2.0\n")
 # %% 09.3 wrong: raises a ValueError | hint: The handler raised an error of the wrong type
@@ -284,6 +316,16 @@ replace('        publisher.publish(driver.velocity())\n', '        if driver.mov
 replace('self.speed = 1.0', 'self.speed = 2.0')
 # %% 09.4 wrong: uses a fixed publishing rate | hint: Copy the code of /change_rate from your program pubvel_toggle_plus
 replace('1 / driver.frequency', '0.5')
+# %% 09.4 wrong: ignores /toggle_forward while it is stopped | hint: The client called /toggle_forward while the turtle was stopped
+replace("        self.forward = not self.forward\n", "        self.forward = self.forward != self.moving\n")
+# %% 09.4 wrong: begins with 10 messages per second | hint: The field `before` has a wrong value
+replace("self.frequency = 2.0", "self.frequency = 10.0")
+# %% 09.4 wrong: accepts rates above 100 | hint: The value 100.5 is not allowed
+replace("if not 0 < request.rate <= 100:", "if not request.rate > 0:")
+# %% 09.4 wrong: stops the turtle after a refused speed | hint: A refused call of /change_speed changed the velocity
+replace("self.speed = 1.0", "self.speed = self.used = 1.0")
+replace("        if not math.isfinite(request.speed):\n", "        self.used = request.speed if math.isfinite(request.speed) else 0.0\n        if not math.isfinite(request.speed):\n")
+replace("linear.x = self.speed", "linear.x = self.used")
 # %% 09.4 wrong: accepts the rate nan | hint: The value nan is not allowed
 replace("if not 0 < request.rate <= 100:", "if request.rate <= 0 or request.rate > 100:")
 # %% 09.4 wrong: uses a fixed speed | hint: After the call, the turtle still moves at 1.0 m/s
@@ -416,8 +458,32 @@ replace('        name = call("spawn", Spawn, 3, 3, 0, "MyTurtle").name\n', """  
 """)
 # %% 09.5 wrong: waits without a limit | hint: A service is missing, but the program did not end
 replace('(name, timeout=5)', '(name)')
-# %% 09.5 wrong: exits with status 0 after a failure | hint: The program did not report
+# %% 09.5 wrong: exits with status 0 after a failure | hint: The program printed a message, but the exit status is wrong
 replace('        return 1\n', '        return 0\n')
+# %% 09.5 wrong: catches only the timeout of the wait | hint: The program does not handle this exception
+replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
+# %% 09.5 wrong: prints no message after a failure | hint: The program printed no message about the failure
+replace("        print(error, file=sys.stderr)\n", "")
+# %% 09.5 wrong: continues after a refused /change_speed | hint: A service refused the call, but the program did not end
+replace('        call("change_speed", ChangeSpeed, 2.0)\n', """        try:
+            call("change_speed", ChangeSpeed, 2.0)
+        except rospy.ServiceException as error:
+            print(error)
+""")
+# %% 09.5 wrong: waits for /spawn without a limit | hint: A service is missing, but the program did not end
+replace("(name, timeout=5)", '(name, timeout=None if name == "spawn" else 5)')
+# %% 09.5 wrong: waits for at most 5 s in all three waits together | hint: Each of the three waits has its own limit
+replace("import sys\n", "import sys\nimport time\n")
+replace("    rospy.wait_for_service(name, timeout=5)\n", "    rospy.wait_for_service(name, timeout=max(0.1, end - time.monotonic()))\n")
+replace('    rospy.init_node("spawn_turtle_plus")\n', '    rospy.init_node("spawn_turtle_plus")\n    end = time.monotonic() + 5\n')
+# %% 09.5 wrong: copies only the three fields that the simulator uses | hint: Some fields of the published message differ from the received message
+replace("    publisher = rospy", """    def follow(message):
+        new = Twist()
+        new.linear.x, new.linear.y, new.angular.z = message.linear.x, message.linear.y, message.angular.z
+        publisher.publish(new)
+
+    publisher = rospy""")
+replace("Twist, publisher.publish)", "Twist, follow)")
 
 # %% 09.6 right: uses the solution from the chapter
 solution()
@@ -468,3 +534,7 @@ replace('type="improved_pubvel_toggle.py"', 'type="improved_pubvel_toggle"')
 replace('type="turtlesim_node"', 'type="turtlesim"')
 # %% 09.6 wrong: remaps the topic of the turtle | hint: The three programs start, but they use different names for the same topics or
 replace('name="turtlesim" />', 'name="turtlesim">\n    <remap from="/turtle1/cmd_vel" to="/other/cmd_vel" />\n  </node>')
+# %% 09.6 wrong: gives the second program another name | hint: The node of spawn_turtle_plus has another name
+replace('name="spawn_turtle_plus"', 'name="spawn_turtle"')
+# %% 09.6 wrong: starts the second program under another name without the argument | hint: The file starts an additional node
+replace("</launch>", '  <node unless="$(arg addturtle)" pkg="my_turtles" type="spawn_turtle_plus.py" name="second" />\n</launch>')

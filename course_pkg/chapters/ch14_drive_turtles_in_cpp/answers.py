@@ -33,6 +33,8 @@ based_on("uses the functions of ros::service")
 replace('ros::service::waitForService("/spawn", 5000)', 'ros::service::waitForService("/spawn", 5)')
 # %% 14.1 wrong: ignores the result of the call | hint: The server refused the call. In this case, print
 replace('  if (!client.call(spawn)) {\n    ROS_ERROR("the simulator refused MyTurtle");\n    return 1;\n  }\n', '  client.call(spawn);\n')
+# %% 14.1 wrong: prints no message after a timeout | hint: The program printed no message about the failure
+replace('    ROS_ERROR("no simulator within 5 s");\n', "")
 # %% 14.1 wrong: sends no name | hint: The name is empty, so the simulator chooses a name
 replace('  spawn.request.name = "MyTurtle";\n', '')
 # %% 14.1 wrong: omits a semicolon | hint: Look for a missing ; or bracket
@@ -102,6 +104,15 @@ replace('  while (ros::ok()) {\n', '  geometry_msgs::Twist message;\n  while (ro
 replace('rate(2)', 'rate(10)')
 # %% 14.2 wrong: omits a header file | hint: The compiler does not know the name std_srvs
 replace('#include <std_srvs/Empty.h>\n', '')
+# %% 14.2 wrong: does not end after Ctrl-C | hint: Ctrl-C does not stop the program
+replace("while (ros::ok())", "while (true)")
+replace("rate.sleep();", "ros::WallDuration(0.5).sleep();")
+# %% 14.2 wrong: publishes each velocity one round late | hint: The first message after the call still contained the old velocity
+replace("    ros::spinOnce();\n", "")
+replace("  while (ros::ok()) {\n", "  ros::AsyncSpinner spinner(1);\n  spinner.start();\n  while (ros::ok()) {\n")
+replace("    publisher.publish(message);\n    rate.sleep();", "    rate.sleep();\n    publisher.publish(message);")
+# %% 14.2 wrong: returns the direction from the handler | hint: The handler returned false, so the client got an error
+replace("  return true;\n", "  return forward;\n")
 
 # %% 14.3 right: uses methods and spinOnce
 solution()
@@ -158,6 +169,14 @@ replace("    if (used … rate.sleep();", """    rate.sleep();
     }
     rounds = 0;
     publisher.publish(driver.velocity());""")
+# %% 14.3 wrong: refuses rates below 1 | hint: The node refused an allowed rate
+based_on("uses functions and an AsyncSpinner")
+replace("request.rate > 0 && request.rate <= 100", "request.rate >= 1 && request.rate <= 100")
+# %% 14.3 wrong: a refused rate changes the pause of the loop | hint: After a refused call, the program publishes at another rate
+based_on("uses functions and an AsyncSpinner")
+replace("std::atomic<double> frequency{2.0};", "std::atomic<double> frequency{2.0}, pause_time{0.5};")
+replace("  bool allowed", "  if (request.rate > 0) pause_time = 1 / request.rate;\n  bool allowed")
+replace("ros::Duration(1 / frequency)", "ros::Duration(pause_time)")
 # %% 14.3 wrong: stores the rate as an int | hint: Store the rate as a float in Python, or as a double in C++
 replace('double frequency', 'int frequency')
 replace('double used', 'int used')
@@ -266,6 +285,10 @@ int main(int argc, char** argv) {
 replace('bool moving = true', 'bool moving = false')
 # %% 14.4 wrong: publishes nothing while it is stopped | hint: No velocity arrived for 4 s
 replace('    publisher.publish(message);\n', '    if (state.moving) publisher.publish(message);\n')
+# %% 14.4 wrong: begins with 10 messages per second | hint: The field `before` has a wrong value
+replace("double frequency = 2.0", "double frequency = 10.0")
+# %% 14.4 wrong: ignores /toggle_forward while it is stopped | hint: The client called /toggle_forward while the turtle was stopped
+replace("state->forward = !state->forward;", "if (state->moving) state->forward = !state->forward;")
 # %% 14.4 wrong: accepts an infinite speed | hint: Accept only finite numbers
 replace('!std::isfinite(request.speed)', 'std::isnan(request.speed)')
 # %% 14.4 wrong: limits the speed | hint: The node refused an allowed speed
@@ -306,8 +329,15 @@ replace('ros::service::waitForService(name, ros::Duration(5)) && ', '')
 replace('spawn.response.name + "/cmd_vel"', '"MyTurtle/cmd_vel"')
 # %% 14.5 wrong: does not set the speed | hint: Send 2.0 in the field `speed`
 replace('  change.request.speed = 2.0;\n', '')
-# %% 14.5 wrong: exits with status 0 after a failure | hint: The program did not report the failure
+# %% 14.5 wrong: exits with status 0 after a failure | hint: The program printed a message, but the exit status is wrong
 replace('    return 1;\n', '    return 0;\n')
+# %% 14.5 wrong: only warns after a refused /change_speed | hint: A service refused the call, but the program did not end
+replace(' || !call("change_speed", change)) {', ") {")
+replace("  Follower follower;", '  if (!call("change_speed", change)) ROS_WARN("the speed was not changed");\n  Follower follower;')
+# %% 14.5 wrong: polls with short queues | hint: Messages get lost if many of them arrive between two calls of ros::spinOnce()
+replace('"/cmd_vel", 10)', '"/cmd_vel", 1)')
+replace('"turtle1/cmd_vel", 10', '"turtle1/cmd_vel", 1')
+replace("ros::spin();", "ros::Rate rate(10);\n  while (ros::ok()) {\n    ros::spinOnce();\n    rate.sleep();\n  }")
 
 # %% 14.6 right: uses the solution from the chapter
 solution()
@@ -332,6 +362,8 @@ replace('default="false"', 'default="true"')
 replace(' default="false"', '')
 # %% 14.6 wrong: omits the condition | hint: spawn_turtle_plus also starts with addturtle:=false
 replace('if="$(arg addturtle)" ', '')
+# %% 14.6 wrong: gives the second program another name | hint: The node of spawn_turtle_plus has another name
+replace('name="spawn_turtle_plus"', 'name="spawn_turtle"')
 
 # %% 14.7 right: uses a MultiThreadedSpinner
 solution()
@@ -353,15 +385,30 @@ replace('ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();', 'ros::AsyncS
 replace('spinner.spin();', 'ros::spin();')
 # %% 14.7 wrong: starts only three threads | hint: One call works, but three calls at the same time do not end
 replace('spinner(4)', 'spinner(3)')
-# %% 14.7 wrong: does not call /battery | hint: Your two handlers are different
+# %% 14.7 wrong: does not call /battery | hint: A handler is different from the original handler
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
-# %% 14.7 wrong: calls another service with the same handler | hint: Your two handlers are different
+# %% 14.7 wrong: calls another service with the same handler | hint: A handler is different from the original handler
 replace('("battery", handleBattery)', '("battery", handleBattery);\n  ros::ServiceServer same = node.advertiseService("same", handleBattery)')
 replace('<std_srvs::Trigger>("battery")', '<std_srvs::Trigger>("same")')
-# %% 14.7 wrong: calls /battery only for an impossible level | hint: Your two handlers are different
+# %% 14.7 wrong: calls /battery only for an impossible level | hint: A handler is different from the original handler
 replace('if (!battery', 'if (level < 0 && !battery')
 replace('inner.response.message', 'std::to_string(level)')
+# %% 14.7 wrong: responds with the last level if /battery fails | hint: A handler is different from the original handler
+replace("bool handleReport", "#if 0\nbool handleReport")
+replace("int main", """#endif
+
+std::string last = "80";
+
+bool report(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  std_srvs::Trigger inner;
+  if (ros::service::call("battery", inner)) last = inner.response.message;
+  response.message = "battery: " + last;
+  return true;
+}
+
+int main""")
+replace('("report", handleReport)', '("report", report)')
 # %% 14.7 wrong: does not read the parameter | hint: The level in the message is wrong
 replace('  ros::param::param("~level", level, 80);\n', '')
 # %% 14.7 wrong: returns another message | hint: a colon, a space and the level
@@ -386,6 +433,12 @@ replace('  ros::spin();', '  ros::MultiThreadedSpinner many(16);\n  many.spin();
 # %% 14.8 wrong: uses the second queue for /report | hint: The program creates a second callback queue, but /battery does not use it
 replace('other.advertise', 'node.advertise')
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
+# %% 14.8 wrong: copies a NodeHandle without the queue, and starts twelve threads | hint: so /battery is in the global queue
+replace("ros::NodeHandle other;\n  other.setCallbackQueue(&queue);", "ros::NodeHandle other(node);")
+replace("  ros::spin();", "  ros::MultiThreadedSpinner many(12);\n  many.spin();")
+# %% 14.8 wrong: sets the queue too late | hint: The service /battery still uses the global queue
+replace("  other.setCallbackQueue(&queue);\n", "")
+replace("  ros::AsyncSpinner", "  other.setCallbackQueue(&queue);\n  ros::AsyncSpinner")
 # %% 14.8 wrong: does not start a spinner for the queue | hint: No thread executes the handler of /battery
 replace('  spinner.start();\n', '')
 # %% 14.8 wrong: uses the second queue for both services | hint: no other thread executed the handler of /battery … Handle the second queue in a separate thread
@@ -393,7 +446,7 @@ replace('node.advertiseService("report"', 'other.advertiseService("report"')
 # %% 14.8 wrong: uses the second queue with four threads for both services | hint: One call works, but eight calls at the same time do not end
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 replace('spinner(1, &queue)', 'spinner(4, &queue)')
-# %% 14.8 wrong: does not call /battery | hint: Your two handlers are different
+# %% 14.8 wrong: does not call /battery | hint: A handler is different from the original handler
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
 
@@ -444,7 +497,7 @@ replace('++calls[session->second]', '++calls[event.getCallerName()]')
 replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
 # %% 14.9 wrong: stores the counts of only three sessions | hint: The response does not contain the number of calls in the session
 replace('++calls[session->second]', '++calls[calls.size() < 3 || calls.count(session->second) ? session->second : "more"]')
-# %% 14.9 wrong: refuses only the first call without a session | hint: The header had no field "session", but the response contains a count
+# %% 14.9 wrong: refuses only the first call without a session | hint: A response with success=false is not a refusal
 replace('  if (session == header.end()) {', '  static int refused = 0;\n  if (session == header.end()) {\n    if (refused++) return true;')
 # %% 14.9 wrong: returns the count before the call | hint: The response contains the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
@@ -460,3 +513,11 @@ replace('  if (session == header.end()) {\n    return false;\n  }\n', '  std::st
 replace('++calls[session->second]', '++calls[key]')
 # %% 14.9 wrong: reads another field | hint: The response does not contain the number of calls in the session
 replace('find("session")', 'find("Session")')
+# %% 14.9 wrong: refuses a session with an empty name | hint: The handler refused a session with an empty name
+replace("session == header.end()", "session == header.end() || session->second.empty()")
+# %% 14.9 wrong: forgets all sessions when there are more than twenty | hint: Keep the counts of all sessions
+replace("  event.getResponse().success = true;\n", "  if (calls.size() > 20) calls.clear();\n  event.getResponse().success = true;\n")
+# %% 14.9 wrong: counts in four threads without a lock | hint: Several calls at the same time got wrong numbers
+replace("  event.getResponse().success = true;\n", "  int seen = calls[session->second];\n  ros::WallDuration(0.01).sleep();  // for example, it writes a line to a file\n  calls[session->second] = seen + 1;\n  event.getResponse().success = true;\n")
+replace("std::to_string(++calls[session->second])", "std::to_string(seen + 1)")
+replace("ros::spin();", "ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();")

@@ -29,13 +29,14 @@ LOGGERS = ("/get_loggers", "/set_logger_level")  # Every rospy node has these se
 # This code imports the script as a module. If the script calls a function such as rospy.init_node during the
 # import, the import ends with a message.
 IMPORTS = """\
-import importlib.util, pathlib, sys, rospy
+import importlib.util, pathlib, sys, rospy, rospy.client
 path, sys.argv[0] = sys.argv[1], "tests.py"  # A program with this name imports the script.
 def began(*args, **kwargs):
     print("it began its work")
     sys.exit(3)
 for name in ("init_node", "Service", "ServiceProxy", "wait_for_service", "spin", "myargv"):
     setattr(rospy, name, began)
+    setattr(rospy.client, name, began)
 spec = importlib.util.spec_from_file_location(pathlib.Path(path).stem, path)
 module = importlib.util.module_from_spec(spec)
 sys.modules[spec.name] = module  # dataclasses looks up the module there

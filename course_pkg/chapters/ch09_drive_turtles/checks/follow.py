@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from itertools import groupby
 
 from course_pkg.chapters.ch09_drive_turtles.checks.spawn import LATE, LIMIT, SPAWN, TURTLE
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import (
+    NO_MESSAGE,
     STARTING,
     World,
+    fails_with_one,
+    last_line,
     outcome,
+    own_message,
     why_it_ended,
 )
 from course_pkg.chapters.ch09_drive_turtles.checks.velocities import TWIST
 from course_pkg.checking import ANYTHING, CheckContext, Refuse, part
 from course_pkg.checking.assertions import Condition, first_unlike, same
 from course_pkg.checking.commands.folder import Running
-from course_pkg.checking.peers.scripted_server import Act, ScriptedServer
+from course_pkg.checking.peers.scripted_server import Act, Late, ScriptedServer
 from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.checking.result import Finished
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import at_this_load, wait_until
 
@@ -27,6 +34,8 @@ PROGRAM = script("spawn_turtle_plus")
 ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # The speed is in m/s.
+DELAY = 2.4  # In one run, /spawn responds after this time in s.
+FULL = 4.9  # A program that stops waiting after less than this time in s has not waited for 5 s.
 LATER = 2.0  # The service /toggle_forward starts after this time in s.
 TOO_LATE = (
     "The service /toggle_forward starts only after your program has called /spawn. Wait for each "
@@ -75,6 +84,7 @@ class Driver:
     context: CheckContext
     world: World
     name: str = "MyTurtle"
+    delay: float = 0.0  # The server of /spawn responds after this time in s.
     calls: list[str] = field(default_factory=list)
     called: float = 0.0  # The time of the last call (s, time.monotonic()).
     servers: dict[str, ScriptedServer] = field(default_factory=dict)
@@ -96,12 +106,13 @@ class Driver:
         self.calls.append(service)
         self.called = time.monotonic()
         self.world.examine()
-        acts: dict[str, Act] = {
+        acts: dict[str, dict[str, Json]] = {
             "spawn": {"name": self.name},
             "toggle_forward": {},
             "change_speed": {"before": 1.0},
         }
-        return Refuse("not now") if refuse else acts[service]
+        act = Refuse(self.context.random.word()) if refuse else acts[service]
+        return Late(self.delay, act) if service == "spawn" and self.delay else act
 
 
 def follows(context: CheckContext, program: TurtleProgram) -> None:
@@ -112,24 +123,29 @@ def follows(context: CheckContext, program: TurtleProgram) -> None:
     copy = program.prepare(context, program)
     name = context.random.word()
     whole = Driver(context, World(context, copy, program, turtle=name), name)
-    missing = Driver(context, World(context, copy, program))
-    refusing = Driver(context, World(context, copy, program))
-    missing.serve("spawn", "change_speed")
-    refusing.serve(*ORDER, refusing="toggle_forward")
-    alone = Driver(context, World(context, copy, program))
-    alone.serve(*ORDER, refusing="spawn")
-    with missing.world.run() as first, refusing.world.run() as second, whole.world.run() as running:
+    missing = [Driver(context, World(context, copy, program), delay=DELAY * (each == 1)) for each in range(3)]
+    refusing = [Driver(context, World(context, copy, program)) for _ in ORDER]
+    for service, without, refused in zip(ORDER, missing, refusing, strict=True):
+        without.serve(*(each for each in ORDER if each != service))
+        refused.serve(*ORDER, refusing=service)
+    with ExitStack() as stack:
+        waiting = [stack.enter_context(driver.world.run()) for driver in missing]
+        running = stack.enter_context(whole.world.run())
+        missing[0].called = missing[0].world.begins(waiting[0])
         whole.serve("spawn")
         _calls_in_order(context, whole, running)
         context.fulfilled(CALLED)
         _passes_on(context, whole, running)
         context.fulfilled(PASSED_ON)
-        _stops_early(context, refusing, second, ["spawn", "toggle_forward"], LIMIT)
-        with alone.world.run() as third:
-            _stops_early(context, alone, third, ["spawn"], at_this_load(LIMIT))
-        # On a busy machine, the run with a missing service may take longer than the other runs.
-        end = missing.called + LIMIT + at_this_load(LATE)
-        _stops_early(context, missing, first, ["spawn"], end - time.monotonic())
+        ending = [stack.enter_context(driver.world.run()) for driver in refusing]
+        for number in (1, 0, 2):
+            _stops_early(context, refusing[number], ending[number], ORDER[: number + 1], at_this_load(LIMIT))
+        for number in (1, 0, 2):
+            # On a busy machine, a run with a missing service may take longer than the other runs.
+            end = missing[number].called + missing[number].delay + LIMIT + at_this_load(LATE)
+            left = end - time.monotonic()
+            done = _stops_early(context, missing[number], waiting[number], ORDER[:number], left)
+            _waits_in_full(context, missing[number], done)
 
 
 def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> None:
@@ -195,8 +211,8 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
 
     The response of /spawn contains a random name for the new turtle.
     """
-    standing = _velocity(0.0, 0.0, 0.0)
-    moving = [_velocity(*context.random.numbers(3, -2.0, 2.0)) for _ in range(COUNT - 2)]
+    standing = _velocity()
+    moving = [_velocity(*context.random.numbers(6, -2.0, 2.0)) for _ in range(COUNT - 2)]
     # The last two velocities are equal; the program must publish both.
     velocities = [standing, *moving, moving[-1]]
     subscription = context.subscribe(driver.world.name(f"{driver.name}/cmd_vel"), TWIST)
@@ -231,7 +247,7 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
     publisher.finish(5.0)
     subscription.wait(COUNT, 2.0)
     driver.world.runs_own_program()
-    _each_once(context, velocities, subscription)
+    _each_once(context, velocities, subscription, driver.world.why_lost())
     own = {driver.world.name(f"{name}/cmd_vel") for name in ("turtle1", driver.name)}
     topics = [topic.name for topic in context.look().topics if topic.publishers]
     context.expect(
@@ -246,7 +262,7 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
 def _the_last(context: CheckContext, driver: Driver, subscription: Subscription) -> None:
     """Publish a random number of velocities at a high rate; the program must publish the last one."""
     count = context.random.integer(150, 250)
-    velocities = [_velocity(number / 100, 0.0, 0.0) for number in range(1, count + 1)]
+    velocities = [_velocity(number / 100) for number in range(1, count + 1)]
     topic = driver.world.name("turtle1/cmd_vel")
     context.publish(topic, TWIST, velocities, every=RAPID, once=True).finish(LAST)
     context.require(
@@ -261,7 +277,9 @@ def _the_last(context: CheckContext, driver: Driver, subscription: Subscription)
     )
 
 
-def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscription: Subscription) -> None:
+def _each_once(
+    context: CheckContext, velocities: list[dict[str, Json]], subscription: Subscription, lost: str
+) -> None:
     received = [arrival.fields for arrival in subscription.arrivals]
     without_repeats = [velocity for velocity, _ in groupby(velocities)]
     context.expect(
@@ -290,6 +308,7 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
                     "even if the message repeats the previous one."
                 ),
             ),
+            *([(ANYTHING, lost)] if lost else []),
             (ANYTHING, "Some velocities are missing. Publish each message immediately in the callback."),
         ],
     )
@@ -318,39 +337,79 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
     )
 
 
-def _velocity(x: float, y: float, turn: float) -> dict[str, Json]:
-    linear: dict[str, Json] = {"x": x, "y": y, "z": 0.0}
-    angular: dict[str, Json] = {"x": 0.0, "y": 0.0, "z": turn}
+def _velocity(*numbers: float) -> dict[str, Json]:
+    """Return a velocity; `numbers` are its first fields, and the other fields are 0."""
+    values = [*numbers, *[0.0] * (6 - len(numbers))]
+    linear: dict[str, Json] = dict(zip("xyz", values[:3], strict=True))
+    angular: dict[str, Json] = dict(zip("xyz", values[3:], strict=True))
     return {"linear": linear, "angular": angular}
 
 
 def _stops_early(
-    context: CheckContext, driver: Driver, running: Running, calls: list[str], within: float
-) -> None:
+    context: CheckContext, driver: Driver, running: Running, calls: Sequence[str], within: float
+) -> Finished:
+    """Assert that the program makes only the calls `calls`, and that it then ends with an error."""
     done = driver.world.ends(running, max(within, 0.1))
     context.require(
         STOPS,
-        holds=driver.calls == calls,
-        expected=", ".join(f"/{name}" for name in calls),
+        holds=driver.calls == [*calls],
+        expected=", ".join(f"/{name}" for name in calls) or "no call",
         actual=", ".join(f"/{name}" for name in driver.calls) or "no call",
         hints=(
             "After a failed call, the program still called the next service. End the program as "
             "soon as a service is missing or refuses a call."
         ),
     )
-    printed = done.out + done.err
+    traceback = "Traceback" in own_message(done)
     context.require(
         STOPS,
-        holds=done.status == 1 and bool(printed.strip()) and "Traceback" not in printed,
+        holds=fails_with_one(done),
         expected="a message, and the exit status 1",
-        actual="a traceback" if "Traceback" in printed else outcome(done),
+        actual=f"a traceback, with the last line {last_line(done)}" if traceback else outcome(done),
+        hints=[
+            (
+                (lambda _: done.status is None and len(driver.servers) == len(ORDER)),
+                (
+                    "A service refused the call, but the program did not end. Test the result of each call, "
+                    "and end the program after a refused call."
+                ),
+            ),
+            (
+                (lambda _: done.status is None),
+                (
+                    "A service is missing, but the program did not end. Wait for each service with a "
+                    "timeout of 5 s, and end the program after a timeout."
+                ),
+            ),
+            ((lambda _: done.status == 1 and not own_message(done)), NO_MESSAGE),
+            (
+                (lambda _: not traceback),
+                (
+                    "The program printed a message, but the exit status is wrong. After this message, end "
+                    "the program with exit status 1."
+                ),
+            ),
+            (
+                ANYTHING,
+                (
+                    "The program does not handle this exception. If a service is missing for 5 s or refuses "
+                    "a call, print a message and end with exit status 1."
+                ),
+            ),
+        ],
+    )
+    return done
+
+
+def _waits_in_full(context: CheckContext, driver: Driver, done: Finished) -> None:
+    waited = done.ended - driver.called - driver.delay
+    context.require(
+        STOPS,
+        holds=waited >= FULL,
+        expected="a program that waits for the missing service for 5 s",
+        actual=f"the program waited for {waited:.1f} s",
         hints=(
-            "A service is missing, but the program did not end. Wait for each service with a "
-            "timeout of 5 s, and end the program after a timeout."
-        )
-        if done.status is None
-        else (
-            "The program did not report the failure. If a service is missing for 5 s or refuses a "
-            "call, print a message and end with exit status 1."
+            "The program did not wait for 5 s after the previous call. Each of the three waits has its own "
+            "limit of 5 s."
         ),
     )

@@ -5,14 +5,20 @@ A fourth service stops and starts the turtle.
 
 from __future__ import annotations
 
+from course_pkg.chapters.ch09_drive_turtles.checks.rate import (
+    AT_FIRST,
+    REFUSALS,
+    TINY,
+    UNCHANGED,
+    refuses,
+    returns_the_old_rate,
+)
 from course_pkg.chapters.ch09_drive_turtles.checks.rate import KIND as CHANGE_RATE
-from course_pkg.chapters.ch09_drive_turtles.checks.rate import TINY, refuses
 from course_pkg.chapters.ch09_drive_turtles.checks.toggle import STRAIGHT, TURNING, toggles_the_stream
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
-from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import REFUSED, World
 from course_pkg.chapters.ch09_drive_turtles.checks.velocities import Stream
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
-from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
 from course_pkg.checking.peers.service_calls import Service
 
 PROGRAM = script("improved_pubvel_toggle")
@@ -28,6 +34,10 @@ ANY_SPEED = (
 NO_REFUSAL = (
     "The node refused a call, because the turtle was already in the requested state. Return "
     'success=True and a message with the word "already".'
+)
+IGNORED_TOGGLE = (
+    "The client called /toggle_forward while the turtle was stopped. After data=True, the turtle has to move "
+    "in this new direction."
 )
 SETS_RATE = "/change_rate sets the rate"
 SPEED_SO_FAR = "the response of /change_speed contains the speed before the call"
@@ -87,8 +97,8 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
                 ),
             ],
         )
-        change_rate = world.service("change_rate", CHANGE_RATE)
-        change_rate(rate=RATE)
+        change_rate = world.service("change_rate", CHANGE_RATE, REFUSALS)
+        returns_the_old_rate(context, change_rate, RATE, [AT_FIRST])
         stream.has_rate(
             RATE,
             SETS_RATE,
@@ -97,8 +107,9 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
                 "/change_rate from your program pubvel_toggle_plus."
             ),
         )
-        for impossible in (0.0, float("nan")):
+        for impossible in (0.0, 100.5, float("nan")):
             refuses(context, change_rate, SETS_RATE, rate=impossible)
+        returns_the_old_rate(context, change_rate, RATE, [RATE], UNCHANGED)
         context.fulfilled(SETS_ITS_RATE)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         change_speed = _changes_speed(context, world, stream, toggle)
@@ -113,7 +124,7 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
     change = world.service(
         "change_speed",
         CHANGE_SPEED,
-        [(REFUSED_BY_HANDLER, ANY_SPEED), (matches("responded with an error: b''"), ANY_SPEED)],
+        [(REFUSED, ANY_SPEED)],
     )
     first, second = context.random.number(2.0, 4.0), -context.random.number(100.0, 900.0)
     before = STRAIGHT[0]
@@ -157,6 +168,14 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
     toggles_the_stream(toggle, stream, straight=(second, 0.0))
     for impossible in (float("nan"), float("inf"), -float("inf")):
         refuses(context, change, "/change_speed refuses a speed that is not finite", speed=impossible)
+    stream.becomes(
+        (second, 0.0),
+        "after a refused call, the speed is the same as before",
+        (
+            "A refused call of /change_speed changed the velocity. Check the speed first, and change your "
+            "variables only if the speed is finite."
+        ),
+    )
     _returns_the_old_speed(context, change, 0.0, second)
     _returns_the_old_speed(context, change, first, 0.0)
     return change
@@ -187,14 +206,18 @@ def _returns_the_old_speed(context: CheckContext, change: Service, wanted: float
 def _starts_and_stops(
     context: CheckContext, world: World, stream: Stream, toggle: Service, change_speed: Service
 ) -> None:
-    """In each direction, stop the turtle twice, set another speed, and start it twice."""
+    """In each direction, stop the turtle twice, set another speed, and start it twice.
+
+    While the turtle is stopped, toggle its direction twice, and at the end three times.
+    """
     switch = world.service(
         "start_stop",
         "std_srvs/SetBool",
-        [(REFUSED_BY_HANDLER, NO_REFUSAL), (matches("responded with an error: b''"), NO_REFUSAL)],
+        [(REFUSED, NO_REFUSAL)],
     )
     _says(context, switch, moving=True, already=True)
-    for turning in context.random.shuffled([False, True]):
+    twice = [(turning, 2) for turning in context.random.shuffled([False, True])]
+    for turning, times in (*twice, (context.random.choice([False, True]), 3)):
         if turning:
             toggle()
         _says(context, switch, moving=False, already=False)
@@ -206,8 +229,9 @@ def _starts_and_stops(
                 "messages in which all fields are 0."
             ),
         )
-        for _ in range(2):
+        for _ in range(times):
             toggle()
+        turns = turning == (times == 2)
         stream.becomes(
             STANDING,
             "data=False stops the turtle: the program publishes velocities of 0",
@@ -220,9 +244,10 @@ def _starts_and_stops(
         change_speed(speed=speed)
         _says(context, switch, moving=True, already=False)
         stream.becomes(
-            TURNING if turning else (speed, 0.0),
+            TURNING if turns else (speed, 0.0),
             "data=True lets the turtle move as before",
             [
+                *([((speed, 0.0) if turns else TURNING, IGNORED_TOGGLE)] if times == 3 else []),
                 (
                     (before, 0.0),
                     (
@@ -241,7 +266,7 @@ def _starts_and_stops(
             ],
         )
         _says(context, switch, moving=True, already=True)
-        if turning:
+        if turns:
             toggle()
     # The next calls follow each other without a pause, so that several calls occur between two messages.
     for moving in (False, True):

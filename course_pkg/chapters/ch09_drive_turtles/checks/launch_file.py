@@ -146,15 +146,26 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
             'attribute "if".'
         ),
     )
+    others = nodes - ALWAYS - {f"/{SECOND}"}
     context.require(
         "roslaunch starts spawn_turtle_plus only if addturtle is true",
-        holds=(f"/{SECOND}" in nodes) == wanted,
+        holds=(f"/{SECOND}" in nodes) == wanted and not others,
         expected=(
             f"a list {'with' if wanted else 'without'} /{SECOND}, if the command has "
             f"{argument or 'no argument'}"
         ),
         actual=", ".join(sorted(nodes)),
         hints=[
+            (
+                (lambda _: others and wanted and f"/{SECOND}" not in nodes),
+                "The node of spawn_turtle_plus has another name. Each of your nodes needs the name of its "
+                'program: write name="spawn_turtle_plus".',
+            ),
+            (
+                (lambda _: others),
+                "The file starts an additional node. Remove its <node> tag, so that only the nodes in the "
+                "exercise start.",
+            ),
             (
                 (lambda _: wanted),
                 "With addturtle:=true, a node is missing. Compare the name of the argument in your "

@@ -6,9 +6,13 @@ import time
 
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import (
+    NO_MESSAGE,
     STARTING,
     World,
+    fails_with_one,
+    last_line,
     outcome,
+    own_message,
     why_it_ended,
 )
 from course_pkg.checking import ANYTHING, CheckContext, part
@@ -223,7 +227,7 @@ def _spawns_in_the_simulator(context: CheckContext, world: World) -> None:
 
 
 def _is_refused(context: CheckContext, world: World) -> None:
-    refuses = _answer(world, Refuse("there is already a turtle MyTurtle"))
+    refuses = _answer(world, Refuse(context.random.word()))
     server = context.serve(world.name("spawn"), SPAWN, refuses)
     with world.run() as running:
         done = world.ends(running, STARTING)
@@ -243,8 +247,8 @@ def _is_refused(context: CheckContext, world: World) -> None:
         done,
         REFUSED,
         (
-            "The server refused the call. In this case, print a message, and end with exit status 1, without "
-            "a traceback. In C++, test what call() returns."
+            "The server refused the call. In this case, print a message, and end with exit status 1. In C++, "
+            "test what call() returns."
         ),
     )
 
@@ -287,11 +291,19 @@ def _why_it_ended_early(waited: float) -> str:
 
 
 def _fails_with_one(context: CheckContext, done: Finished, assertion: str, hint: str) -> None:
-    printed = done.out + done.err
+    traceback = "Traceback" in own_message(done)
     context.require(
         assertion,
-        holds=done.status == 1 and bool(printed.strip()) and "Traceback" not in printed,
+        holds=fails_with_one(done),
         expected="a message, and the exit status 1",
-        actual="a traceback" if "Traceback" in printed else outcome(done),
-        hints=hint,
+        actual=f"a traceback, with the last line {last_line(done)}" if traceback else outcome(done),
+        hints=[
+            (
+                (lambda _: traceback and assertion == REFUSED),
+                "The program does not handle the exception of a refused call. For each ServiceException, "
+                "print a message, and end with exit status 1.",
+            ),
+            ((lambda _: done.status == 1 and not own_message(done)), NO_MESSAGE),
+            (ANYTHING, hint),
+        ],
     )

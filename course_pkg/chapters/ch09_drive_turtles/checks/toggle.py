@@ -125,6 +125,7 @@ def toggles(context: CheckContext, program: TurtleProgram, *, pairs: tuple[int, 
         )
         stream.has_no_extra_messages(toggle, "the program publishes twice per second", RATE)
         stream.moves_turtle()
+        world.stops(running)
 
 
 def _counts_each_call(toggle: Service, stream: Stream, many: int) -> None:
@@ -146,3 +147,4 @@ def toggles_the_stream(
         stream.becomes(TURNING, ONE_CALL, TOGGLED_AGAIN if before else TOGGLED)
         toggle()
         stream.becomes(straight, NEXT_CALL, BACK)
+    stream.reacts_at_once(NEXT_CALL, 2 * times)

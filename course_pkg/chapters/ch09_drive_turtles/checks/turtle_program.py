@@ -41,7 +41,7 @@ class TurtleProgram:
     `file` is the path of the program in the package. `command` is the argument of rosrun that names the
     program. The function `prepare` asserts that the file is a program, and returns a copy of the package.
     rosrun can start the program from this copy. `errors` contains hints for calls of the program's services
-    that fail.
+    that fail. `polling` is the hint for a program that loses messages because it calls ros::spinOnce().
     """
 
     package: Package
@@ -49,6 +49,7 @@ class TurtleProgram:
     command: str
     prepare: Callable[[CheckContext, TurtleProgram], BuiltPackage]
     errors: Pairs = ()
+    polling: str = ""
 
     @property
     def path(self) -> str:

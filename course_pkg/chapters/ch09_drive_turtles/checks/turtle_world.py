@@ -2,29 +2,43 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import Pairs, TurtleProgram
 from course_pkg.checking import CheckContext, matches
-from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.commands.folder import COLOUR, Running
 from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.catkin_package import BuiltPackage
 from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.checking.shared.roscpp_program import require_no_other_program
-from course_pkg.waiting import wait_until
+from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient
+from course_pkg.waiting import at_this_load, wait_until
 from course_pkg.workspace import explain
 
 # A node must be on the graph within this time in s; it takes 1 s on an idle machine.
 STARTING = 30.0
 SETTLING = 4.0  # A node must serve its services within this time in s after its registration.
+STOPPING = 4.0  # A program must end within this time in s after Ctrl-C; it takes 0.6 s on an idle machine.
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 SIMULATOR = "simulator"
 SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")
 TOPICS = ("turtle1/cmd_vel", "turtle1/pose", "MyTurtle/cmd_vel", "MyTurtle/pose")
 LOGGERS = ("/get_loggers", "/set_logger_level")  # Every node has these services.
+
+# A handler that raises an unexpected exception, or returns None, does not refuse a call.
+REFUSED = matches(
+    "responded with an error: (?!b['\"](error processing|service cannot process request: (service )?handler "
+    "returned))"
+)
+WAITING = re.compile(r"^.*\bwaitForService: Service \[.*$", re.MULTILINE)  # roscpp itself prints these lines.
+NO_MESSAGE = (
+    "The program printed no message about the failure. Print a message before the program ends: in C++, the "
+    "lines of waitForService are from roscpp and do not count."
+)
 
 ENDED = (
     matches("unavailable"),
@@ -83,6 +97,11 @@ class World:
         if self._running:
             self._running.examine()
 
+    def why_lost(self) -> str:
+        """Return the hint for lost messages in a program that calls ros::spinOnce(), or "" otherwise."""
+        source = self._context.source(f"file:{self._program.path}")
+        return self._program.polling if "spinOnce" in source else ""
+
     def simulator(self) -> Running:
         """Start the simulator; it ends at the end of the `with` block."""
         line = f"rosrun turtlesim turtlesim_node __ns:={self._space} __name:={SIMULATOR}"
@@ -121,6 +140,27 @@ class World:
         """Wait up to `within` s until the student's program ends; return how the program ended."""
         wait_until(lambda: running.status is not None, within, POLL)
         return running.stop()
+
+    def stops(self, running: Running) -> None:
+        """Shut the student's node down, as rosnode kill does, and assert that the program ends.
+
+        In a node of rospy or roscpp, this has the same effect as Ctrl-C.
+        """
+        for node in self._context.look().nodes:
+            if node.name.startswith(f"{self._space}/") and node.name != self.name(SIMULATOR):
+                with suppress(OSError, *NO_ANSWER):
+                    XmlRpcClient(node.uri).ask("shutdown", "/check", "the check is over")
+        ended = wait_until(lambda: running.status is not None, at_this_load(STOPPING), POLL)
+        self._context.require(
+            "the program can be stopped with Ctrl-C",
+            holds=ended,
+            expected="the program ends",
+            actual="the program is still running",
+            hints=(
+                "Ctrl-C does not stop the program, because its loop never ends. As the condition of the "
+                "loop, use `not rospy.is_shutdown()`, or `ros::ok()` in C++."
+            ),
+        )
 
     def serves(self, running: Running, *names: str) -> None:
         """Wait until the student's program serves all services in `names`.
@@ -173,8 +213,23 @@ def outcome(done: Finished) -> str:
     The text contains the last line of the program's output.
     """
     ending = "a program that is still running" if done.status is None else f"exit status {done.status}"
-    last = (done.out + done.err).strip().rpartition("\n")[2]
+    last = last_line(done)
     return f"{ending}, and {last}" if last else f"{ending}, and no output"
+
+
+def last_line(done: Finished) -> str:
+    """Return the last line that a program printed, or "" if the program printed nothing."""
+    return (done.out + done.err).strip().rpartition("\n")[2]
+
+
+def own_message(done: Finished) -> str:
+    """Return what a program printed, without the lines that roscpp prints while the program waits."""
+    return WAITING.sub("", COLOUR.sub("", done.out + done.err)).strip()
+
+
+def fails_with_one(done: Finished) -> bool:
+    """Return whether a program ended with exit status 1 and with its own message, but without a traceback."""
+    return done.status == 1 and bool(own_message(done)) and "Traceback" not in own_message(done)
 
 
 def why_it_ended(done: Finished) -> str:

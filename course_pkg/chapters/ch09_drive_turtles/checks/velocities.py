@@ -24,8 +24,13 @@ SILENT = (
     "No velocity arrived for 4 s. In each round of the loop, publish a message, even if the velocity is "
     "0, and pause only once."
 )
+ONE_LATE = (
+    "The first message after the call still contained the old velocity. After the pause, read the variables "
+    "first, and then publish the message immediately."
+)
 # A measured rate may differ from the right rate by this fraction, because the machine may be busy.
 NEAR = 0.25
+TRIES = 3  # A rate is measured up to this number of times.
 CALLS = 12  # The check makes this many calls at the same time.
 
 
@@ -36,6 +41,7 @@ class Stream:
         self._context = context
         self._world = world
         self._running = running
+        self._late: list[bool] = []  # For each call of becomes(): whether an old velocity arrived first.
         self._subscription: Subscription = context.subscribe(world.name("turtle1/cmd_vel"), TWIST)
         self._subscription.published(
             within=4.0,
@@ -76,17 +82,32 @@ class Stream:
         Messages that arrived before the call of this method are ignored.
         """
         now = time.monotonic()
-        arrival = self.next(1)[-1]
+        arrival, late = self.next(1)[-1], False
         while arrival.at < now + FLYING or (
             not same([*wanted], [*velocity(arrival)]) and arrival.at < now + 1.0
         ):
+            late = late or arrival.at > now + FLYING
             arrival = self.next(1)[-1]
+        self._late.append(late)
         self._context.expect(assertion, expected=wanted, actual=velocity(arrival), near=1e-6, hints=hints)
         self._context.expect(
             assertion,
             expected=[0.0] * 4,
             actual=_other_fields(arrival),
             hints="A field of the velocity is not 0, but it has to be 0. Set only linear.x and angular.z.",
+        )
+
+    def reacts_at_once(self, assertion: str, changes: int) -> None:
+        """Assert that, after at least one of the last `changes` calls, the first message was not an old one.
+
+        A program may read a variable just before a call and publish just after the call, but not every time.
+        """
+        self._context.require(
+            assertion,
+            holds=not all(self._late[-changes:]),
+            expected="the new velocity in the first message after the call",
+            actual="the old velocity in the first message after each call",
+            hints=ONE_LATE,
         )
 
     def only(self, *wanted: tuple[float, float]) -> None:
@@ -100,18 +121,24 @@ class Stream:
             hints="A message contained a wrong velocity. Publish only in the loop, not in the handler.",
         )
 
-    def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
+    def has_rate(
+        self, wanted: float, assertion: str, hints: Hints, *, seconds: float = 1.0, near: float = NEAR
+    ) -> None:
         """Assert that the messages arrive at the rate `wanted` (Hz).
 
-        After a change of the rate, the first messages may still arrive at the old rate.
+        One measurement takes about the time `seconds` (s), and at least two periods. The measured rate may
+        differ from `wanted` by the fraction `near`. After a change of the rate, the first messages may still
+        arrive at the old rate.
         """
-        count = max(2, int(wanted))
-        measured = rate(self.next(count + 2)[1:])
-        if abs(measured - wanted) > NEAR * wanted:
-            measured = rate(self.next(count)[1:])
+        count = max(2, int(wanted * seconds))
+        self.next(1)
+        for _ in range(TRIES):
+            measured = rate(self.next(count + 1))
+            if abs(measured - wanted) < near * wanted:
+                break
         self._context.require(
             assertion,
-            holds=abs(measured - wanted) < NEAR * wanted,
+            holds=abs(measured - wanted) < near * wanted,
             expected=f"{wanted:g} messages per second",
             actual=f"{measured:.1f} messages per second",
             hints=hints,

@@ -1,8 +1,9 @@
-"""14.7: a server that receives the calls of /battery from the handlers of /report, and passes them on."""
+"""14.7 and 14.8: servers that receive the calls of /battery from the handlers of /report."""
 
 from __future__ import annotations
 
 import threading
+import time
 from contextlib import suppress
 from queue import SimpleQueue
 
@@ -12,6 +13,7 @@ from std_srvs.srv import Trigger
 from course_pkg.checking.peers.scripted_server import Act, Refuse
 from course_pkg.checking.plain_values import Message
 
+HOLDING = 8.0  # A call of /battery is held for at most this time in s.
 GATHERING = 3.0  # The relay waits at most this time in s until all calls have arrived.
 
 
@@ -44,3 +46,24 @@ class BatteryRelay:
         finally:
             self._free.put(proxy)
         return {"success": response.success, "message": response.message}
+
+
+class BatteryGate:
+    """Holds all calls of /battery until the event `opened` is set, and counts them."""
+
+    def __init__(self) -> None:
+        self.opened = threading.Event()
+        self.held = 0
+
+    def answer(self, _: Message) -> Act:
+        """Wait until the gate is open, and return a response."""
+        self.held += 1
+        self.opened.wait(HOLDING)
+        return {"success": True, "message": "held"}
+
+    def wait_for_the_last(self, quiet: float) -> None:
+        """Return when no further call arrives within the time `quiet` (s)."""
+        before = -1
+        while before != self.held:
+            before = self.held
+            time.sleep(quiet)

@@ -22,13 +22,22 @@ NO_SPIN = (
     "The call got no response. In each round of the loop, call ros::spinOnce(), because it runs the handler. "
     "Do not wait in the handler.",
 )
+RETURNED_FALSE = (
+    matches("responded with an error: b''"),
+    "The handler returned false, so the client got an error. Return true, unless the handler has to refuse "
+    "the call.",
+)
+POLLING = (
+    "Messages get lost if many of them arrive between two calls of ros::spinOnce(). Call ros::spin(), and use "
+    "longer queues, such as 100, for the subscriber and the publisher."
+)
 COMPILING = 90.0  # The time limit of the compilation in s; the compilation takes 4 s on an idle machine.
 
 
 def cpp(name: str) -> TurtleProgram:
     """Return the C++ program `name`, such as "spawn_turtle", of the package of chapter 14."""
     package = Package(NAME, {"package.xml": MANIFEST.format(name=NAME)})
-    return TurtleProgram(package, f"src/{name}.cpp", name, _compiled, (NO_SPIN,))
+    return TurtleProgram(package, f"src/{name}.cpp", name, _compiled, (NO_SPIN, RETURNED_FALSE), POLLING)
 
 
 def _compiled(context: CheckContext, program: TurtleProgram) -> BuiltPackage:

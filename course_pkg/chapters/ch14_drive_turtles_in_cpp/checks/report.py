@@ -4,20 +4,29 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from queue import Queue
+from threading import Thread
+
+import rospy
 
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import REACHED_ITS_END, World
-from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.battery_relay import BatteryRelay
+from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.battery_relay import BatteryGate, BatteryRelay
 from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.cpp_program import cpp
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
-from course_pkg.checking.peers.service_calls import Reply, Service
+from course_pkg.checking.peers.scripted_server import Refuse
+from course_pkg.checking.peers.service_calls import Reply, Service, response_of
 from course_pkg.checking.plain_values import Value
+from course_pkg.waiting import at_this_load, wait_until
 
 THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
 TRIGGER = "std_srvs/Trigger"
 SERVICES = ("battery", "report")
 GROUPS = 30  # The check makes this number of groups of simultaneous calls.
+CROWD = 24  # This number of clients calls /report while the check holds the calls of /battery.
+QUIET = 0.2  # If no further call of /battery arrives within this time in s, all threads are in use.
+SOON = 1.0  # A service with its own queue responds within this time in s.
 FAILED = 2  # The check accepts failed calls in at most this number of groups.
 FEW, MANY = 3, 8  # FEW and MANY are the numbers of simultaneous clients in the two checks.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
@@ -29,6 +38,14 @@ TOO_FEW = (
 FEW_THREADS = f"{HANGS}Use a spinner with at least {FEW + 1} threads."
 ONE_THREAD = (
     f"{HANGS}Handle the second queue in a separate thread, such as ros::AsyncSpinner spinner(1, &queue)."
+)
+QUEUE_TOO_LATE = (
+    "The service /battery still uses the global queue, because its NodeHandle got the second queue after it "
+    "had created the service. Call setCallbackQueue before advertiseService."
+)
+SHARED_QUEUE = (
+    "While all calls of /report wait, no thread executes the handler of /battery, so /battery is in the "
+    "global queue. Create this service with a NodeHandle that has the second queue."
 )
 NOT_USED = (
     "The program creates a spinner, but main() does not use it: ros::spin() without an argument handles all "
@@ -151,7 +168,8 @@ def own_queue(context: CheckContext) -> None:
             "One call works, but eight calls at the same time do not end. Put only /battery into the "
             "new queue, and handle this queue in a separate thread."
         ),
-        hangs=ONE_THREAD,
+        hangs=QUEUE_TOO_LATE if _sets_the_queue_too_late(_code(context, QUEUE)) else ONE_THREAD,
+        separate=True,
     )
 
 
@@ -179,6 +197,13 @@ def _leaves_battery_in_the_global_queue(code: str) -> bool:
     return not re.search(rf"\b{created[1]}\s*\.\s*setCallbackQueue|[(,=&]\s*{created[1]}\s*[,);]|\[&\]", code)
 
 
+def _sets_the_queue_too_late(code: str) -> bool:
+    """Return whether the NodeHandle that creates /battery gets its queue after this service was created."""
+    created = re.search(r'(\w+)\s*\.\s*advertiseService\s*\(\s*"/?battery"', code)
+    given = re.search(rf"\b{created[1]}\s*\.\s*setCallbackQueue", code) if created else None
+    return bool(created and given and given.start() > created.start())
+
+
 def _uses(context: CheckContext, program: TurtleProgram, pattern: str, assertion: str, hint: str) -> None:
     code = _code(context, program)
     context.require(
@@ -198,8 +223,8 @@ def _calls_battery(context: CheckContext, *, holds: bool) -> None:
         expected="a call of the service",
         actual="none",
         hints=(
-            "Your two handlers are different from the original handlers. Use the original handlers, "
-            "and change only main."
+            "A handler is different from the original handler. Use the two original handlers, and change "
+            "only main."
         ),
     )
 
@@ -212,9 +237,11 @@ def _reports(
     *,
     hangs: str,
     held: bool = False,
+    separate: bool = False,
 ) -> None:
     """Call /report once, and then many times by `clients` clients at the same time.
 
+    If `separate` is true, /battery must respond while the handlers of all calls of /report wait.
     If `held` is true, the last calls of the clients continue only when all of them have reached /battery.
     """
     level = context.random.integer(3, 79)
@@ -235,10 +262,40 @@ def _reports(
             for reply in report.at_once([{}] * clients):
                 _has_the_level(context, reply, clients, level)
             server.leave()
+        if separate:
+            _battery_has_its_own_queue(context, world, report)
         # After this line, the master returns the address of the check's own server for /battery.
         drawn = context.random.word()
         context.serve(world.name("battery"), TRIGGER, lambda _: {"success": True, "message": drawn})
         _calls_battery(context, holds=report().message == f"battery: {drawn}")
+        context.serve(world.name("battery"), TRIGGER, lambda _: Refuse(drawn))
+        _calls_battery(context, holds=bool(report.replies([{}])[0].error))
+
+
+def _battery_has_its_own_queue(context: CheckContext, world: World, report: Service) -> None:
+    """Hold the calls of /battery in the handlers of /report, and call the program's own /battery."""
+    own = rospy.ServiceProxy(world.name("battery"), report.kind, persistent=True)
+    own()  # This connection remains after the check has registered its own server.
+    gate = BatteryGate()
+    server = context.serve(world.name("battery"), TRIGGER, gate.answer)
+    calls = Thread(target=report.replies, args=([{}] * CROWD,), daemon=True)
+    calls.start()
+    gate.wait_for_the_last(at_this_load(QUIET))
+    responses: Queue[str] = Queue()
+    Thread(
+        target=lambda: responses.put(response_of(own, report.kind._request_class())[1]), daemon=True
+    ).start()
+    responded = bool(wait_until(lambda: not responses.empty(), at_this_load(SOON)))
+    gate.opened.set()
+    calls.join()
+    server.leave()
+    context.require(
+        "/battery has its own callback queue",
+        holds=responded,
+        expected="a response of /battery while calls of /report wait",
+        actual=f"no response, while {gate.held} calls of /report wait",
+        hints=SHARED_QUEUE,
+    )
 
 
 def _has_the_level(context: CheckContext, reply: Reply, clients: int, level: int) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import queue
 import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import rospy
 
@@ -15,6 +16,9 @@ from course_pkg.checking.plain_values import ServiceClass
 PROGRAM = cpp("session_counter")
 TRIGGER = "std_srvs/Trigger"
 WITHIN = 8.0  # WITHIN is the time limit in s for a call.
+MANY = 30  # After the other calls, the check calls the service once in this number of further sessions.
+AT_ONCE = 8  # The check makes this number of calls at the same time.
+NOT_REFUSED = 'the handler refuses a call without the header field "session"'
 COUNTED = "Count the calls of each session separately."
 
 
@@ -45,17 +49,52 @@ def count_sessions(context: CheckContext) -> None:
             _counts(context, service.name, service.kind, session, counts)
         counts[first] += 1
         _counts(context, service.name, service.kind, first, counts, f"/{context.random.word()}")
+        for session in ["", *(context.random.word() for _ in range(MANY)), first, ""]:
+            counts[session] = counts.get(session, 0) + 1
+            _counts(context, service.name, service.kind, session, counts)
+        _counts_at_once(context, service.name, service.kind, first, counts)
         context.fulfilled(COUNTED)
         for session in context.random.shuffled(sessions)[:3]:
             service.refused(
-                'the handler refuses a call without the header field "session"',
-                hints=(
-                    'The header had no field "session", but the response contains a count. Test with '
-                    "find() whether the header has this field."
-                ),
+                NOT_REFUSED,
+                hints=[
+                    (
+                        (lambda response: not response["message"].isdigit()),
+                        (
+                            "Without the field, the client got a response. A response with success=false is "
+                            "not a refusal: return false from the handler, or throw an exception."
+                        ),
+                    ),
+                    (
+                        ANYTHING,
+                        (
+                            'The header had no field "session", but the response contains a count. Test with '
+                            "find() whether the header has this field."
+                        ),
+                    ),
+                ],
             )
             counts[session] += 1
             _counts(context, service.name, service.kind, session, counts)
+
+
+def _counts_at_once(
+    context: CheckContext, name: str, kind: ServiceClass, session: str, counts: dict[str, int]
+) -> None:
+    """Make several calls in one session at the same time; each response must contain another number."""
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        found = sorted(pool.map(lambda _: _call(name, kind, {"session": session}), range(AT_ONCE)))
+    first = counts[session] + 1
+    counts[session] += AT_ONCE
+    context.expect(
+        "calls at the same time get different numbers",
+        expected=sorted(str(number) for number in range(first, first + AT_ONCE)),
+        actual=found,
+        hints=(
+            "Several calls at the same time got wrong numbers. If several threads execute the handler, lock "
+            "a std::mutex while you read and change the count."
+        ),
+    )
 
 
 def _counts(
@@ -82,6 +121,20 @@ def _counts(
             (
                 str(sum(counts.values())),
                 ("The response contains the number of all calls. Store a separate count for each session."),
+            ),
+            (
+                (lambda actual: not session and "Exception" in actual),
+                (
+                    "The handler refused a session with an empty name. Refuse a call only if the header has "
+                    'no field "session": test this with find().'
+                ),
+            ),
+            (
+                (lambda actual: actual == "1" and counts[session] > 2),
+                (
+                    "The count of this session was right at first, but then began again at 1. Keep the "
+                    "counts of all sessions, for any number of sessions."
+                ),
             ),
             (
                 "1",
