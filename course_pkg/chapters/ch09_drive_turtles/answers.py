@@ -349,7 +349,7 @@ replace('not math.isfinite(request.speed)', 'request.speed != request.speed or r
 # %% 09.4 wrong: does not stop | hint: The turtle still moves after a call with data=False
 replace('self.moving = request.data\n', 'self.stopped = not request.data\n')
 replace('if request.data == self.moving:', 'if request.data != getattr(self, "stopped", False):')
-# %% 09.4 wrong: resets the direction at each start and stop | hint: After data=True, the turtle has to move in
+# %% 09.4 wrong: resets the direction at each start and stop | hint: When you stop or start the turtle, do not change
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n')
 # %% 09.4 wrong: ignores a speed that is set while it is stopped | hint: The client called /change_speed while the turtle was stopped
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, request.speed if self.moving else self.speed')

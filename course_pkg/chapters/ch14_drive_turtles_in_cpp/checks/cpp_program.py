@@ -28,8 +28,8 @@ RETURNED_FALSE = (
     "the call.",
 )
 POLLING = (
-    "Messages get lost if many of them arrive between two calls of ros::spinOnce(). Call ros::spin(), and use "
-    "longer queues, such as 100, for the subscriber and the publisher."
+    "Messages get lost if many of them arrive between two calls of ros::spinOnce(). Call ros::spin(), and "
+    "use longer queues, such as 100, for the subscriber and the publisher."
 )
 COMPILING = 90.0  # The time limit of the compilation in s; the compilation takes 4 s on an idle machine.
 
