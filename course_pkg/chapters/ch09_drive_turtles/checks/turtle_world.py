@@ -219,7 +219,7 @@ def outcome(done: Finished) -> str:
 
 def last_line(done: Finished) -> str:
     """Return the last line that a program printed, or "" if the program printed nothing."""
-    return (done.out + done.err).strip().rpartition("\n")[2]
+    return COLOUR.sub("", done.out + done.err).strip().rpartition("\n")[2]
 
 
 def own_message(done: Finished) -> str:
