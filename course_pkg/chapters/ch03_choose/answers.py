@@ -89,6 +89,12 @@ replace("ServiceProxy(service", 'ServiceProxy("/detect_customer"')
 replace("after=0", "after=1")
 # %% 03.1 wrong: returns 1 for each customer | hint: The number that poll() returned
 replace("return answer.number", "return 1")
+# %% 03.1 wrong: always pauses for 0.2 s | hint: At a low rate, poll() made more calls
+replace("1 / rate", "0.2")
+# %% 03.1 wrong: lets the server wait from the second call on | hint: The field `patience` of the request is not 0
+replace("end = time", "patience = 0\n    end = time")
+replace("patience=0)", "patience=patience)")
+replace("time.sleep", "patience = 1\n        time.sleep")
 
 # %% 03.2 right: stores the greeted customers in a set
 def start_greeting(customers, greetings):
@@ -140,6 +146,8 @@ def start_greeting(customers, greetings):
 
 # %% 03.2 wrong: uses a queue of length 1 | hint: Some messages arrived during a
 replace("rospy.Subscriber(customers, UInt32, greet", "rospy.Subscriber(customers, UInt32, greet, queue_size=1")
+# %% 03.2 wrong: uses a queue of length 10 | hint: Some messages arrived during a
+replace("rospy.Subscriber(customers, UInt32, greet", "rospy.Subscriber(customers, UInt32, greet, queue_size=10")
 # %% 03.2 wrong: greets a customer twice | hint: Store the greeted numbers in a set
 replace("\n            greeted.add(message.data)", "")
 # %% 03.2 wrong: compares each customer only with the previous one | hint: Store the greeted numbers in a set

@@ -12,6 +12,7 @@ from course_pkg.checking.plain_values import Value
 
 NUMBER = "std_msgs/UInt32"
 GREETING = 0.2  # GREETING is the duration of say_good_day() in s.
+REPEATS = 3  # During one greeting, the check publishes the numbers of earlier customers this many times.
 EAR = """
 class Ear:
     def __init__(self):
@@ -111,7 +112,8 @@ GREETED = (
 def greet_everyone(context: CheckContext) -> None:
     """Publish the numbers of five customers quickly; publish two of these numbers twice.
 
-    Later, publish the numbers of two new customers, and repeat the number of an earlier customer.
+    Later, publish the number of a new customer, repeat the numbers of earlier customers during this greeting,
+    and publish the number of another new customer before most of these repetitions.
     """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     numbers = context.random.integers(7, 10, 9000)
@@ -164,7 +166,8 @@ def _greets(
         ),
     )
     context.fulfilled(GREETED)
-    _told(context, customers, [later[0], first[3], later[1]])
+    # A subscriber that stores only ten messages during a greeting loses the number later[1].
+    _told(context, customers, [later[0], later[1], *first * REPEATS], every=0.002)
     _greeted(context, said, subscription, numbers)
     context.require(
         "no customer is lost",
@@ -204,13 +207,13 @@ def _starts_again(context: CheckContext, number: int) -> None:
     )
 
 
-def _told(context: CheckContext, topic: str, numbers: list[int]) -> float:
-    """Publish the numbers in `numbers` at 50 messages per second.
+def _told(context: CheckContext, topic: str, numbers: list[int], every: float = 0.02) -> float:
+    """Publish the numbers in `numbers`; the time between two messages is `every` s.
 
     Return the time of the first message (s, time.monotonic()).
     """
     publisher = context.publish(
-        topic, NUMBER, [{"data": number} for number in numbers], every=0.02, once=True
+        topic, NUMBER, [{"data": number} for number in numbers], every=every, once=True
     )
     context.require(
         "the topic in `customers` has a subscriber",

@@ -69,20 +69,20 @@ FOUND = "Return the number of the customer who is already there or who comes lat
 def poll_with_a_deadline(context: CheckContext) -> None:
     """Call poll() while a customer is there, and before a customer comes.
 
-    At the end, no customer comes: call poll() with a fast detector, and then with a slow detector.
+    At the end, no customer comes: call poll() with a fast detector, with a slow detector, and at a low rate.
     """
     _one_who_is_there(context)
     _one_who_comes(context)
     context.fulfilled(FOUND)
     _nobody(context)
     _nobody_slowly(context)
+    _nobody_at_a_low_rate(context)
 
 
 def _one_who_is_there(context: CheckContext) -> None:
     counter = Counter(context.random.integer(100, 999), after=0.0)
     seconds, rate = context.random.number(3.0, 5.0), context.random.number(0.6, 1.0)
-    result, server = _polled(context, counter.answer, seconds=seconds, rate=rate)
-    _asked_as_it_should(context, server)
+    result = _polled(context, counter.answer, seconds=seconds, rate=rate)
     context.expect(
         "the number of the customer is returned",
         expected=counter.number,
@@ -117,7 +117,7 @@ def _one_who_is_there(context: CheckContext) -> None:
 def _one_who_comes(context: CheckContext) -> None:
     after, seconds, rate = (context.random.number(*limits) for limits in ((0.6, 0.7), (3.5, 4.4), (4.5, 5.5)))
     counter = Counter(context.random.integer(100, 999), after=after)
-    result, _ = _polled(context, counter.answer, seconds=seconds, rate=rate)
+    result = _polled(context, counter.answer, seconds=seconds, rate=rate)
     context.expect(
         "a customer who comes later is found",
         expected=counter.number,
@@ -144,7 +144,7 @@ def _one_who_comes(context: CheckContext) -> None:
 def _nobody(context: CheckContext) -> None:
     counter = Counter(0, after=float("inf"))
     seconds, rate = context.random.number(1.8, 2.4), context.random.number(8.0, 9.0)
-    result, _ = _polled(context, counter.answer, seconds=seconds, rate=rate)
+    result = _polled(context, counter.answer, seconds=seconds, rate=rate)
     context.expect(
         "poll() returns None if no customer comes",
         expected=None,
@@ -194,7 +194,7 @@ def _nobody(context: CheckContext) -> None:
 def _nobody_slowly(context: CheckContext) -> None:
     counter = Counter(0, after=float("inf"), slow=0.3)
     seconds, rate = context.random.number(1.1, 1.4), context.random.number(9.0, 11.0)
-    result, _ = _polled(context, counter.answer, seconds=seconds, rate=rate)
+    result = _polled(context, counter.answer, seconds=seconds, rate=rate)
     context.require(
         "poll() makes about as many calls as the rate allows",
         holds=len(counter.asked) > 1,
@@ -202,11 +202,22 @@ def _nobody_slowly(context: CheckContext) -> None:
         actual=f"{len(counter.asked)} calls",
         hints=f"poll() made too few calls while no customer came. {NO_PAUSE}",
     )
-    _ends_in_time(
-        context,
-        result,
-        seconds + 0.3 + 1 / rate,
-        COUNTED,
+    _ends_in_time(context, result, seconds + 0.3 + 1 / rate, COUNTED)
+
+
+def _nobody_at_a_low_rate(context: CheckContext) -> None:
+    counter = Counter(0, after=float("inf"))
+    seconds, rate = context.random.number(1.1, 1.3), context.random.number(1.2, 1.4)
+    _polled(context, counter.answer, seconds=seconds, rate=rate)
+    context.require(
+        "poll() does not make more calls than the rate allows",
+        holds=len(counter.asked) <= seconds * rate + 2,
+        expected=f"at most {seconds * rate + 1:.0f} calls in {seconds:g} s, at {rate:g} per second",
+        actual=f"{len(counter.asked)} calls",
+        hints=(
+            "At a low rate, poll() made more calls than the rate allows. Calculate the pause from the "
+            "argument `rate`."
+        ),
     )
 
 
@@ -223,7 +234,7 @@ def _ends_in_time(context: CheckContext, result: Result, latest: float, hint: st
 
 def _polled(
     context: CheckContext, script: Callable[[Message], Act], *, seconds: float, rate: float
-) -> tuple[Result, ScriptedServer]:
+) -> Result:
     name = f"/{context.random.word()}"
     server = context.serve(name, DETECT, script)
     hints = [
@@ -243,7 +254,8 @@ def _polled(
     ]
     result = context.run("poll", name, seconds, rate, within=8.0, hints=hints)
     result.returned()
-    return result, server
+    _asked_as_it_should(context, server)
+    return result
 
 
 def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
@@ -256,7 +268,7 @@ def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
     context.expect(
         "the field `patience` of the request is 0",
         expected=0.0,
-        actual=server.requests[0]["patience"],
+        actual=_first_other_than_0(server, "patience"),
         hints=(
             "The field `patience` of the request is not 0, so the detector waits for a "
             "customer. Use patience=0."
@@ -265,11 +277,16 @@ def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
     context.expect(
         "the field `after` of the request is 0",
         expected=0,
-        actual=server.requests[0]["after"],
+        actual=_first_other_than_0(server, "after"),
         hints=(
             "The field `after` of the request is not 0, so the detector ignores some customers. Use after=0."
         ),
     )
+
+
+def _first_other_than_0(server: ScriptedServer, name: str) -> Json:
+    """Return the first value of the field `name` in the requests that is not 0, or 0 if there is none."""
+    return next((request[name] for request in server.requests if request[name]), 0)
 
 
 _NUMBER = [
