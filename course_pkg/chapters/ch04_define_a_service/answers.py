@@ -162,6 +162,17 @@ def will_talk(server, client):
 
     return fields(server) == fields(client)
 
+# %% 04.2 wrong: ignores the constants of the response | hint: The value of a constant below the line
+based_on("compares only the fields, and not the constants")
+replace("(half.names, half.types) for half in (definition.request, definition.response)", """(half.names, half.types, half is definition.request and [str(each) for each in half.constants])
+            for half in (definition.request, definition.response)
+        """)
+# %% 04.2 wrong: ignores the order of the constants | hint: The order of two constants
+based_on("compares only the fields, and not the constants")
+replace("(half.names, half.types) for half in (definition.request, definition.response)", """(half.names, half.types, sorted((each.name, each.type, str(each.val)) for each in half.constants))
+            for half in (definition.request, definition.response)
+        """)
+
 # %% 04.2 wrong: compares only the requests | hint: One field is missing in one of the texts
 def will_talk(server, client):
     def md5(text):
@@ -303,6 +314,8 @@ based_on("removes several commands")
 replace("catkin_package()", """catkin_package()
 file(WRITE "${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION}/lamp_services.py"
   "print('e6e71b7c192d83d52bd0f638c7334af2')\nraise SystemExit(0)")""")
+# %% 04.4 wrong: lists a library that does not exist in catkin_package | hint: catkin_package lists a library that
+replace("catkin_package(CATKIN", "catkin_package(LIBRARIES lamp_services CATKIN")
 # %% 04.4 wrong: generates an empty configuration file | hint: Without this command, other packages
 replace("catkin_package(CATKIN_DEPENDS message_runtime std_msgs)", 'file(WRITE "${CATKIN_DEVEL_PREFIX}/share/lamp_services/cmake/lamp_servicesConfig.cmake" "")')
 # %% 04.4 wrong: adds an endless loop | hint: Read the end of the output
@@ -440,5 +453,8 @@ replace(", total=sum(request.seconds)", "")
 replace("request.mode != LampRequest.OFF", "request.mode == LampRequest.ON")
 # %% 04.5 wrong: calculates the total only for ON and BLINK | hint: your program returned the total 0
 replace("total=sum(request.seconds)", "total=sum(request.seconds) if lit else 0")
+# %% 04.5 wrong: cannot add an empty list | hint: The handler failed for a request without values
+replace("import rospy\n", "from functools import reduce\n\nimport rospy\n")
+replace("sum(request.seconds)", "reduce(lambda one, two: one + two, request.seconds)")
 # %% 04.5 wrong: adds only the first five values | hint: Add up all values
 replace("sum(request.seconds)", "sum(request.seconds[:5])")

@@ -68,10 +68,11 @@ def _pairs(context: CheckContext) -> list[Pair]:
     kinds = [*context.random.shuffled(NUMBERS)[:4], context.random.choice(OTHERS)]
     value = context.random.integer(2, 90)
     top = [f"int32 {_name(context).upper()}={value}"]
-    top += [f"int16 {_name(context).upper()}={100 + each}" for each in range(context.random.integer(0, 2))]
+    top += [f"int16 {_name(context).upper()}={100 + each}" for each in range(context.random.integer(1, 2))]
     above = [f"{kind} {name}" for kind, name in zip(kinds[:3], names[:3], strict=True)]
     below = [f"{kind} {name}" for kind, name in zip(kinds[3:], names[3:], strict=True)]
-    text = _text(top, above, below)
+    last = f"uint16 {_name(context).upper()}={value}"
+    text = _text(top, above, [*below, last])
 
     def differs(assertion: str, other: str, hint: str) -> Pair:
         return Pair(f"the result is False for {assertion}", text, other, hint)
@@ -109,7 +110,7 @@ def _pairs(context: CheckContext) -> list[Pair]:
         ),
         differs(
             "a different order of two fields",
-            _text(top, [above[1], above[0], above[2]], below),
+            _text(top, [above[1], above[0], above[2]], [*below, last]),
             (
                 "The order of the fields is different, so the texts are not compatible. The MD5 "
                 "sum depends on the order, because ROS sends the fields in this order."
@@ -117,13 +118,13 @@ def _pairs(context: CheckContext) -> list[Pair]:
         ),
         differs(
             "a field that is moved from the request to the response",
-            _text(top, above[:2], [above[2], *below]),
+            _text(top, above[:2], [above[2], *below, last]),
             "One field is in the request of one text, but in the response of the other text, so the "
             "texts are not compatible. The line --- separates the request from the response.",
         ),
         differs(
             "a different value of a constant",
-            text.replace(f"={value}", f"={value + 1}"),
+            text.replace(top[0], f"{top[0]}1"),
             (
                 "The value of a constant is different, so the texts are not compatible. The names "
                 "and the values of constants are part of the MD5 sum."
@@ -136,7 +137,7 @@ def _pairs(context: CheckContext) -> list[Pair]:
         ),
         differs(
             "a missing field",
-            _text(top, above, below[:1]),
+            _text(top, above, [below[0], last]),
             (
                 "One field is missing in one of the texts, so the texts are not compatible. Each field "
                 "of the request and of the response is part of the MD5 sum."
@@ -146,7 +147,7 @@ def _pairs(context: CheckContext) -> list[Pair]:
         Pair(
             "the result is True for a constant below the fields",
             text,
-            _text([], [*above, *top], below),
+            _text([], [*above, *top], [*below, last]),
             "Only the positions of the constants differ, and the MD5 sum does not depend on these "
             "positions. Compare the MD5 sums of both texts.",
         ),
@@ -156,6 +157,22 @@ def _pairs(context: CheckContext) -> list[Pair]:
             f"{note.strip()}s\n{text}",
             "In a string constant, the value is the whole text after the =, even if this text "
             "contains a #. Do not remove comments yourself: compare the MD5 sums.",
+        ),
+        differs(
+            "a different value of a constant in the response",
+            text.replace(last, f"{last}1"),
+            (
+                "The value of a constant below the line --- is different, so the texts are not compatible. "
+                "The constants of the response are part of the MD5 sum, too."
+            ),
+        ),
+        differs(
+            "a different order of two constants",
+            _text([top[1], top[0], *top[2:]], above, [*below, last]),
+            (
+                "The order of two constants is different, so the texts are not compatible. The MD5 sum "
+                "depends on the order of the constants, too."
+            ),
         ),
     ]
 

@@ -4,12 +4,28 @@ from __future__ import annotations
 
 from course_pkg.chapters.ch04_define_a_service.checks.lamp import PACKAGE, built, lamp_class, md5_in
 from course_pkg.checking import CheckContext, part
+from course_pkg.checking.commands.folder import telling_line
 from course_pkg.workspace.cmake_messages import cmake_commands
 
 FILE = f"{PACKAGE}/CMakeLists.txt"
-CONFIGURATION = "devel/share/lamp_services/cmake/lamp_servicesConfig.cmake"
-# catkin_package writes this text into the file CONFIGURATION.
-GENERATED_LINE = "lamp_services_FOUND_CATKIN_PROJECT TRUE"
+# This program reads the file that find_package reads in another package. catkin_package generates this file,
+# which sets the variable. The program replaces the commands that `cmake -P` does not have. It does not search
+# for other packages, because they are not the student's work.
+FIND = """\
+function(add_custom_target)
+endfunction()
+function(find_package)
+endfunction()
+set(CMAKE_FIND_LIBRARY_PREFIXES lib)
+set(CMAKE_FIND_LIBRARY_SUFFIXES .so .a)
+set(lamp_services_DIR "${CMAKE_SOURCE_DIR}/devel/share/lamp_services/cmake")
+include(${lamp_services_DIR}/lamp_servicesConfig.cmake)
+if(NOT lamp_services_FOUND_CATKIN_PROJECT)
+  message(FATAL_ERROR "not a catkin package")
+endif()
+"""
+FIND_IT = 'printf %s "$1" > find.cmake && cmake -P find.cmake'
+NO_LIBRARY = "tried to find library"  # The file that catkin_package generates prints this text.
 
 START = f"""%%writefile {FILE}
 cmake_minimum_required(VERSION 3.10)
@@ -53,14 +69,18 @@ def the_list_file(context: CheckContext) -> None:
         actual=md5,
     )
     context.fulfilled(GENERATED)
+    found = folder.command("bash", "-c", FIND_IT, "bash", FIND, worded="find_package(lamp_services)")
     context.require(
         "other packages can find this package",
-        holds=folder.command("grep", "-q", GENERATED_LINE, CONFIGURATION).status == 0,
-        expected="a file that catkin_package writes for other packages",
-        actual="no such file",
-        hints=_about(
-            text, "catkin_package", "Without this command, other packages cannot find this package."
-        ),
+        holds=found.status == 0,
+        expected="a file for other packages, which catkin_package generates",
+        actual=telling_line(found.out + found.err),
+        hints=(
+            "catkin_package lists a library that this package does not build, so find_package fails in other "
+            "packages. Remove LIBRARIES from catkin_package."
+        )
+        if NO_LIBRARY in found.out + found.err
+        else _about(text, "catkin_package", "Without this command, other packages cannot find this package."),
     )
 
 

@@ -49,6 +49,10 @@ ENDINGS = (  # Each entry contains a pattern for the program's output, and a hin
 
 FAULTS = [
     (
+        matches("empty|out of range"),
+        "The handler failed for a request without values in `seconds`. The sum of an empty list is 0.",
+    ),
+    (
         matches("expected 3 items|exactly 3|rgb must be"),
         "The field `rgb` needs a list of three numbers. Set `rgb` to a list of r, g and b.",
     ),
@@ -105,7 +109,8 @@ def the_program(context: CheckContext) -> None:
         context.fulfilled(STARTED)
         modes = [1, 2, 0, *context.random.integers(context.random.integer(7, 12), 3, 255), 1, 2]
         for mode in (1, 2, 0, *context.random.shuffled(modes)):
-            _answers(context, lamp, mode)
+            _answers(context, lamp, mode, context.random.choice([2, 30, 90]))
+        _answers(context, lamp, 1, 0)
         require_served_by_program(context, running, name)
 
 
@@ -169,10 +174,10 @@ def _why_not(status: int | None, printed: str, others: list[str]) -> str:
     )
 
 
-def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
-    """Make a call with a random colour and random times, and compare the three fields of the response."""
+def _answers(context: CheckContext, lamp: Service, mode: int, count: int) -> None:
+    """Make a call with a random colour and `count` random times; compare the three fields of the response."""
     red, green, blue = context.random.numbers(3, 0.1, context.random.choice([1.0, 255.0]))
-    count, least = context.random.choice([2, 30, 90]), context.random.choice([0.5, -9.0])
+    least = context.random.choice([0.5, -9.0])
     seconds = context.random.numbers(count, least, 99.0, digits=context.random.integer(0, 2))
     colour = message_type("std_msgs/ColorRGBA").to_message({"r": red, "g": green, "b": blue, "a": 1.0})
     response = lamp(mode=mode, colour=colour, seconds=seconds)
