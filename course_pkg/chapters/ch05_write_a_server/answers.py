@@ -73,6 +73,8 @@ replace("volume=area * request.height", "volume=round(area * request.height)")
 replace("area=area, volume=area * request.height", "area=round(area, 2), volume=round(area * request.height, 2)")
 # %% 05.1 wrong: rounds the volume to two digits | hint: Your volume is rounded
 replace("volume=area * request.height", "volume=round(area * request.height, 2)")
+# %% 05.1 wrong: rounds area and volume to five digits | hint: Your volume is rounded
+replace("area=area, volume=area * request.height", "area=round(area, 5), volume=round(area * request.height, 5)")
 # %% 05.1 wrong: returns the area in square centimetres | hint: This area is in square centimetres
 replace("area=area", "area=area * 10000")
 # %% 05.1 wrong: returns the volume in cubic centimetres | hint: Your volume is in cubic centimetres
@@ -310,6 +312,10 @@ replace("{side} is {value}, and a side cannot be negative", "{request.length}, {
 replace('("length", "width", "height")', '("height", "width", "length")')
 # %% 05.3 wrong: also refuses a length of 0 | hint: not zero itself
 replace("value < 0", "value < 0 or not request.length")
+# %% 05.3 wrong: rounds area and volume to three digits | hint: The area or the volume of a box is not exact
+replace("area=area, volume=area * request.height", "area=round(area, 3), volume=round(area * request.height, 3)")
+# %% 05.3 wrong: accepts a side that is only slightly negative | hint: with a side that is only slightly negative
+replace("value < 0", "value < -1e-5")
 # %% 05.3 wrong: does not check the width | hint: The server measured a box with a negative side
 replace('("length", "width", "height")', '("length", "height")')
 
@@ -384,6 +390,12 @@ replace("self.on", "Switch.on", times=3)
 replace("moved = request.data != self.on", 'if request.data == self.on:\n            raise rospy.ServiceException("already there")')
 replace("success=moved", "success=True")
 
+# %% 05.4 wrong: stores a separate position for each client | hint: Another client moved the switch to this position
+replace("self.on = False", "self.positions = {}")
+replace("moved = request.data != self.on\n        self.on = request.data", """client = request._connection_header["callerid"]
+        moved = request.data != self.positions.get(client, False)
+        self.positions[client] = request.data""")
+replace("self.on else", "request.data else")
 # %% 05.4 wrong: never stores the position | hint: in the wanted position, but success is True
 replace("self.on = request.data\n", "pass\n")
 replace('"on" if self.on else', '"on" if request.data else')
@@ -475,6 +487,8 @@ replace('"closed" if request.data else "open"', '"open" if request.data else "cl
 replace("        changed = request", "        if not request.data and self.move_service is not None:\n            return None\n        changed = request")
 # %% 05.5 wrong: ends the node | hint: The program ended during the calls.
 replace('self.move_service.shutdown("maintenance")', 'rospy.signal_shutdown("maintenance")')
+# %% 05.5 wrong: returns success=False from /move_arm | hint: In a response of /move_arm, success is False
+replace("TriggerResponse(success=True, message", "TriggerResponse(message")
 # %% 05.5 wrong: counts calls of /maintenance | hint: The count is wrong. Add
 replace("changed = request", "self.moves += 1\n        changed = request")
 # %% 05.5 wrong: does not import a type | hint: An exception has ended the program

@@ -29,12 +29,20 @@ def random_boxes(context: CheckContext) -> list[list[float]]:
     return [boxes[0], *context.random.shuffled(boxes[1:])]
 
 
+def near_to(right: float) -> float:
+    """Return the tolerance for a comparison with `right`.
+
+    `near` is also an absolute tolerance, and for a very small box, `NEAR` would accept a rounded number.
+    """
+    return NEAR * min(1.0, abs(right))
+
+
 def is_rounded(right: float) -> Callable[[float], bool]:
-    """Return a condition for a number with at most four decimals that is nearly equal to `right`."""
+    """Return a condition for a number with at most six decimals that is nearly equal to `right`."""
     return lambda actual: any(
         math.isclose(actual, round(actual, digits), rel_tol=FLOAT32)
         and abs(actual - right) < 0.51 * 10.0**-digits
-        for digits in range(5)
+        for digits in range(7)
     )
 
 

@@ -106,7 +106,7 @@ def _about_start(ended: bool, output: str) -> str:
 def _works(context: CheckContext) -> None:
     move = context.service(MOVE, "std_srvs/Trigger")
     maintenance = context.service(MAINTENANCE, "std_srvs/SetBool", hints=SWITCHES)
-    _counts(context, [move().message, move().message], 1)
+    _counts(context, [move(), move()], 1)
     context.fulfilled(MOVES)
     address = context.look().service(MOVE)
     for data, changed in ((False, False), (True, True), (True, False)):
@@ -125,7 +125,7 @@ def _works(context: CheckContext) -> None:
         ),
     )
     _switches(context, maintenance(data=False), closed=False, changed=False)
-    _counts(context, [context.service(MOVE, "std_srvs/Trigger")().message], 3)
+    _counts(context, [context.service(MOVE, "std_srvs/Trigger")()], 3)
     _in_a_random_order(context, maintenance, 3)
 
 
@@ -138,15 +138,15 @@ def _in_a_random_order(context: CheckContext, maintenance: Service, moves: int) 
         closed = data
         if not closed:
             moves += 1
-            _counts(context, [context.service(MOVE, "std_srvs/Trigger")().message], moves)
+            _counts(context, [context.service(MOVE, "std_srvs/Trigger")()], moves)
     _switches(context, maintenance(data=False), closed=False, changed=closed)
 
 
-def _counts(context: CheckContext, messages: list[str], first: int) -> None:
+def _counts(context: CheckContext, responses: list[Message], first: int) -> None:
     context.expect(
         "the message of /move_arm is the number of moves since the start",
-        expected=[str(first + number) for number in range(len(messages))],
-        actual=messages,
+        expected=[str(first + number) for number in range(len(responses))],
+        actual=[response.message for response in responses],
         hints=[
             (
                 ["1"],
@@ -164,6 +164,13 @@ def _counts(context: CheckContext, messages: list[str], first: int) -> None:
                 "in any other call.",
             ),
         ],
+    )
+    context.require(
+        "success is True in each response of /move_arm",
+        holds=all(response.success for response in responses),
+        expected="success=True",
+        actual="success=False",
+        hints="In a response of /move_arm, success is False. Set `success` to True after each move.",
     )
 
 

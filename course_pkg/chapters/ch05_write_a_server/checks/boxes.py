@@ -8,13 +8,14 @@ from math import prod
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints, same
 from course_pkg.checking.peers.service_calls import Service
-from course_pkg.checking.shared.geometry import NEAR, is_rounded, random_boxes
+from course_pkg.checking.shared.geometry import NEAR, is_rounded, near_to, random_boxes
 from course_pkg.checking.shared.served_by import require_served_by_notebook, require_still_served
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 # In an error message, an exact value may differ from the side by this number of metres.
 EXACT = 1e-6
+SLIGHTLY = -1e-5  # A negative side above this number of metres is only slightly negative.
 # A message may contain at most this many numbers. If a message contains many numbers, one of them may equal
 # the right value by chance.
 MANY = 6
@@ -51,7 +52,7 @@ def area_and_volume(context: CheckContext) -> None:
                 "area is width times length",
                 expected=width * length,
                 actual=response.area,
-                near=NEAR,
+                near=near_to(width * length),
                 hints=_about_area(width, length, height),
             )
         with context.goal(VOLUME):
@@ -59,7 +60,7 @@ def area_and_volume(context: CheckContext) -> None:
                 "volume is area times height",
                 expected=width * length * height,
                 actual=response.volume,
-                near=NEAR,
+                near=near_to(width * length * height),
                 hints=_about_volume(width, length, height),
             )
 
@@ -142,7 +143,7 @@ def _about_area(width: float, length: float, height: float) -> Hints:
     goals={MEASURED: 1, REFUSED: 2, NAMED: 1},
 )
 def a_box_that_cannot_be(context: CheckContext) -> None:
-    """Send a normal box, three boxes with a side of 0, and boxes with one or two negative sides."""
+    """Send a normal box, a small box, three boxes with a side of 0, and boxes with negative sides."""
     get_geometry = context.service(
         "/getGeometryChecked",
         "course_pkg/geometry",
@@ -155,22 +156,16 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
         ],
     )
     require_served_by_notebook(context, "/getGeometryChecked")
-    for flat in ("", *SIDES):
-        sides = _box(context, {flat: 0.0})
-        response = get_geometry(**sides)
-        area = sides["width"] * sides["length"]
-        context.expect(
-            "the handler measures a box without negative sides",
-            expected=[area, area * sides["height"]],
-            actual=[response.area, response.volume],
-            near=1e-3,
-        )
+    small = dict(zip(SIDES, context.random.numbers(3, 0.02, 0.4, digits=3), strict=True))
+    for given in ({}, *({flat: 0.0} for flat in SIDES), small):
+        _measured(context, get_geometry, _box(context, given))
     context.fulfilled(MEASURED)
     # A float32 stores the negative sides exactly. One of them has ten decimals, so a rounded value is wrong.
     fraction = context.random.choice([0.25, 0.375, 0.75])
     depths = [*(-depth - fraction for depth in context.random.integers(2, 1, 49)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})
+    _refused(context, get_geometry, {context.random.choice(SIDES): -(2.0 ** -context.random.integer(20, 40))})
     require_still_served(context, "/getGeometryChecked")
     for pair in combinations(SIDES, 2):
         _refused(context, get_geometry, dict(zip(pair, context.random.shuffled(depths[:2]), strict=True)))
@@ -180,6 +175,25 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
 def _box(context: CheckContext, given: Mapping[str, float]) -> dict[str, float]:
     drawn = zip(SIDES, context.random.numbers(3, 0.5, 9.0), strict=True)
     return {side: given.get(side, value) for side, value in drawn}
+
+
+def _measured(context: CheckContext, get_geometry: Service, sides: Mapping[str, float]) -> None:
+    response = get_geometry(**sides)
+    area = sides["width"] * sides["length"]
+    for right, actual in ((area, response.area), (area * sides["height"], response.volume)):
+        context.expect(
+            "the handler measures a box without negative sides",
+            expected=right,
+            actual=actual,
+            near=near_to(right),
+            hints=[
+                (
+                    is_rounded(right),
+                    "The area or the volume of a box is not exact. Return the same numbers as the handler of "
+                    "/getGeometry, without rounding.",
+                )
+            ],
+        )
 
 
 def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str, float]) -> None:
@@ -192,10 +206,15 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
         saying="responded with an error",
         hints=[
             (
+                lambda actual: isinstance(actual, dict) and max(negative.values()) > SLIGHTLY,
+                "The server measured a box with a side that is only slightly negative. Compare each side "
+                "with exactly 0.",
+            ),
+            (
                 lambda actual: isinstance(actual, dict),
                 "The server measured a box with a negative side. Before you calculate, compare each "
                 "side with zero, and refuse each negative value, for example -0.5.",
-            )
+            ),
         ],
         **_box(context, negative),
     )

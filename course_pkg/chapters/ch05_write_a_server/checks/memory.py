@@ -42,11 +42,11 @@ MESSAGE: list[tuple[Condition, str]] = [
 ]
 ANOTHER_CLIENT = """
 import rospy
-from std_srvs.srv import Trigger
+from std_srvs import srv
 
 
-def another_client():
-    return rospy.ServiceProxy("/count", Trigger)().message
+def another_client(name, kind, **fields):
+    return rospy.ServiceProxy(name, getattr(srv, kind))(**fields).message
 """
 NO_REFUSAL = (
     "It is not an error if the switch already has the wanted position. Return success=False and the "
@@ -181,7 +181,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
     context.expect(
         "after each reset, the messages of the calls are 1, 2, 3",
         expected=str(int(before) + 1),
-        actual=context.run("another_client", worded="a call from another client").value,
+        actual=context.run("another_client", "/count", "Trigger", worded="a call from another client").value,
         hints=("Each client has a separate count. Store one count for all clients in `self`."),
     )
     _starts_from_zero(context)
@@ -230,7 +230,7 @@ def _follows(before: str) -> Callable[[str], bool]:
     goals={POSITION: 2, MOVED: 2, "Make sure that each new Switch() is off.": 1},
 )
 def a_switch_that_tells(context: CheckContext) -> None:
-    """Call /switch with data=False, and then ten more times.
+    """Call /switch with data=False, and then ten more times; also call it from another client.
 
     At the end, create a new Switch(), which must be off.
     """
@@ -283,6 +283,20 @@ def a_switch_that_tells(context: CheckContext) -> None:
                 ],
             )
         on = data
+    # The kernel is the other client, so the check compares only the next response to the check's own client.
+    context.prepare(ANOTHER_CLIENT)
+    worded = f"a call from another client with data={not on}"
+    context.run("another_client", "/switch", "SetBool", data=not on, worded=worded)
+    with context.goal(MOVED):
+        context.expect(
+            "success shows whether the switch moved",
+            expected=False,
+            actual=turn(data=not on).success,
+            hints=(
+                "Another client moved the switch to this position, but for the next client, success is True. "
+                "Store one position for all clients in `self`."
+            ),
+        )
     context.fulfilled(POSITION)
     context.fulfilled(MOVED)
     require_still_served(context, "/switch")
