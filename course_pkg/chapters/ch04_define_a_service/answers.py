@@ -153,7 +153,7 @@ replace("words for", "words[0] for")
 based_on("compares the lines without comments and blanks")
 replace("words for", "words[-1] for")
 
-# %% 04.2 wrong: compares only the fields, and not the constants | hint: The value of a constant
+# %% 04.2 wrong: compares only the fields, and not the constants | hint: The value of a constant is different
 def will_talk(server, client):
     def fields(text):
         context = genmsg.MsgContext.create_default()
