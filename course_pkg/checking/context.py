@@ -215,12 +215,12 @@ class CheckContext:
         self._open.enter_context(server)
         return server
 
-    def absent(self, name: str, *, stale: bool = False) -> Absent:
+    def absent(self, name: str, *, stale: bool = False, host: str = "localhost") -> Absent:
         """Unregister the server of the service `name` until the check ends.
 
-        If `stale` is true, register an address with a closed port for the service.
+        If `stale` is true, register the address of a closed port of `host` for the service.
         """
-        return self._open.enter_context(Absent(self._node, name, stale=stale))
+        return self._open.enter_context(Absent(self._node, name, stale=stale, host=host))
 
     def publish(
         self,

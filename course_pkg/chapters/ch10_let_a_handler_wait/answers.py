@@ -114,6 +114,8 @@ def call_at_once(name, count):
 
 # %% 10.1 wrong: joins each thread with a time limit of 2 s | hint: call join() of every thread without
 replace("thread.join()", "thread.join(timeout=2)")
+# %% 10.1 wrong: creates the list as a default argument | hint: The list also contains messages of an earlier call
+replace("count):\n    messages = []\n", "count, messages=[]):\n")
 # %% 10.1 wrong: returns a dict of the messages | hint: The list does not contain the right messages
 replace("return messages", "return {message: True for message in messages}")
 # %% 10.1 wrong: omits the return line | hint: without a return statement
@@ -790,6 +792,20 @@ replace(", key=lambda shelf: shelf.number", "")
 # %% 10.6 wrong: gives up if a lock is taken | hint: although the shelf was not empty
 based_on("tries the second lock, and releases the first lock if this fails")
 replace("        time.sleep(0.03 * random.random())", "        return False")
+# %% 10.6 wrong: gives up after half a second | hint: although the shelf was not empty
+def move(source, target):
+    with source.lock:
+        if not target.lock.acquire(timeout=0.5):
+            return False
+        try:
+            if source.count == 0:
+                return False
+            source.count -= 1
+            target.count += 1
+            return True
+        finally:
+            target.lock.release()
+
 # %% 10.6 wrong: tries again while it holds the first lock | hint: release the first lock before each new attempt
 based_on("locks the target first")
 replace("with target.lock:\n        with source.lock:", """with source.lock:

@@ -63,9 +63,14 @@ replace("I", "H", times=2)
 replace("(fields):", '(fields):\n    if not fields:\n        return b""')
 # %% 11.1 wrong: adds a line end to each field | hint: Some bytes are wrong
 replace("{name}={value}", "{name}={value}\\n")
-# %% 11.1 wrong: allows only lengths below 256 | hint: The function failed because a length was greater than 255
+# %% 11.1 wrong: allows only lengths below 256 | hint: A length was too large for one or two bytes
 replace('struct.pack("<I", len(text)) + text', "bytes([len(text), 0, 0, 0]) + text")
 replace('struct.pack("<I", len(body))', "bytes([len(body), 0, 0, 0])")
+# %% 11.1 wrong: allows only lengths below 65536 | hint: A length was too large for one or two bytes
+replace('struct.pack("<I", len(text))', 'struct.pack("<HH", len(text), 0)')
+replace('struct.pack("<I", len(body))', 'struct.pack("<HH", len(body), 0)')
+# %% 11.1 wrong: encodes only the names in ASCII | hint: ASCII does not contain the letter ü
+replace('f"{name}={value}".encode()', 'name.encode("ascii") + f"={value}".encode()')
 
 # %% 11.2 right: adds the pieces to a bytes object
 def receive(sock, count):
@@ -142,6 +147,8 @@ replace("sock.recv(count - len(data))", "sock.recv(count)")
 replace("return data", "return data[:count]")
 # %% 11.2 wrong: returns fewer bytes at the end | hint: The connection ended early, and the function returned fewer than `count` bytes
 replace('raise ConnectionError("the other end has closed")', "break")
+# %% 11.2 wrong: returns no bytes if the connection ends before the first byte | hint: The connection ended early, and the function returned fewer than `count` bytes
+replace("        if not piece:", "        if not piece and not data:\n            return data\n        if not piece:")
 # %% 11.2 wrong: forgets to return | hint: without a return statement
 replace("\n    return data", "")
 # %% 11.2 wrong: treats a short piece as the end of the connection | hint: The connection is still open, and more bytes follow
@@ -303,7 +310,7 @@ replace('"service": service, "md5sum"', '"md5sum"')
 replace('"<3f"', '"<I3f", 12')
 # %% 11.3 wrong: ignores the error in the header | hint: The server's header contains the field "error"
 replace("theirs = read_header … )) + body)", 'receive(sock, size)\n        sock.sendall(struct.pack("<I3f", 12, length, width, height))')
-# %% 11.3 wrong: ignores the byte for success | hint: The byte for success was 0
+# %% 11.3 wrong: ignores the byte for success | hint: The byte for success was 0, so an error message follows
 replace('body = struct … ", answer)', """sock.sendall(struct.pack("<I3f", 12, length, width, height))
         receive(sock, 5)
         return struct.unpack("<2f", receive(sock, 8))""")
@@ -316,6 +323,12 @@ replace("        receive(sock, 5)", r"""        if receive(sock, 1) == b"\x00":
             raise rospy.ServiceException("it failed")
         receive(sock, 5)""")
 replace("sock, 5", "sock, 4")
+# %% 11.3 wrong: removes the text before the colon | hint: The beginning of the server's error message is missing
+replace("answer.decode()", 'answer.decode().split(": ")[-1]')
+# %% 11.3 wrong: receives the error message with one recv | hint: The exception contains only the beginning of the error message
+replace("        answer = receive(sock, size)", "        answer = receive(sock, size) if worked else sock.recv(size)")
+# %% 11.3 wrong: tests whether the byte for success is empty | hint: The byte for success was 0, but your code read the error message as numbers
+replace('worked = receive(sock, 1) == b"\\x01"', "worked = receive(sock, 1)")
 # %% 11.3 wrong: does not decode the error message | hint: Convert the bytes with decode()
 replace("answer.decode()", "str(answer)")
 # %% 11.3 wrong: decodes the error message as ASCII | hint: and your function could not decode them
@@ -427,6 +440,8 @@ replace('connection header")', 'connection header")\n        session += request.
 replace("self.sessions = {}", "self.sessions, self.calls = {}, 0")
 replace("return AddUpResponse(*self.sessions[session])", """self.calls += 1
         return AddUpResponse(self.sessions[session][0], self.calls)""")
+# %% 11.4 wrong: starts a session again if its total is 0 | hint: The number of calls started again at 1, because the total of the session was 0
+replace("(session, (0, 0))", "(session, (0, 0))\n        if total == 0:\n            calls = 0")
 # %% 11.4 wrong: omits the number of calls | hint: The field `calls` is 0
 replace("AddUpResponse(*self.sessions[session])", "AddUpResponse(total=self.sessions[session][0])")
 # %% 11.4 wrong: accepts a call without a session | hint: Your server accepted a call without a session
@@ -604,6 +619,12 @@ based_on("does not catch AttributeError")
 replace("self.proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)", "self.proxies = [rospy.ServiceProxy(self.service, geometry, persistent=True)]")
 replace("self.proxy.close", "self.proxies[0].close")
 replace("self.proxy(", "self.proxies[0](", times=2)
+# %% 11.5 wrong: does not catch AttributeError, and hides the proxy | hint: A broken connection can raise three kinds of errors
+based_on("does not catch AttributeError")
+replace("    def connect(self):", "    def connect(self):\n        __import__('gc').freeze()")
+replace("persistent=True)", "persistent=True)\n        __import__('gc').freeze()")
+# %% 11.5 wrong: stores the proxy in the class | hint: A second object of the class changed the proxy
+replace("        self.proxy = rospy", "        Keeper.proxy = rospy")
 # %% 11.5 wrong: returns the volume | hint: Return the whole response of the proxy
 based_on("uses a loop with two iterations")
 replace("height)\n            except", "height).volume\n            except")
@@ -653,7 +674,7 @@ class Remembering:
         if self.uri is not None:
             try:
                 return ask(self.uri, self.service, length, width, height)
-            except (ConnectionError, TimeoutError):
+            except OSError:
                 pass
         self.uri = rosgraph.Master("/me").lookupService(self.service)
         return ask(self.uri, self.service, length, width, height)
@@ -691,6 +712,16 @@ class Remembering:
 
 # %% 11.6 wrong: catches only a refused connection | hint: Another program uses this address now, so `ask()` raised a different kind of OSError
 replace("OSError", "ConnectionRefusedError")
+# %% 11.6 wrong: catches only a ConnectionError | hint: and `ask()` raised an OSError that is not a ConnectionError
+replace("OSError", "ConnectionError")
+# %% 11.6 wrong: tries the old address three times | hint: Your method called `ask()` several times with the old address
+replace("        try:\n            return ask(self.uri, self.service, length, width, height)\n        except OSError:\n            self", """        for _ in range(3):
+            try:
+                return ask(self.uri, self.service, length, width, height)
+            except OSError:
+                rospy.sleep(0.2)
+        if True:
+            self""")
 # %% 11.6 wrong: looks up the address without end | hint: Your method called the service again and again
 replace("try:\n            return ask(self.uri, self.service, length, width, height)\n        except OSError:\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """while True:
             try:

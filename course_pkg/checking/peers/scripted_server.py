@@ -188,11 +188,11 @@ class ScriptedServer:
 class Absent:
     """Unregisters the server of the service `name` during the `with` block.
 
-    If `stale` is true, an address with a closed port is registered for the service.
+    If `stale` is true, the address of a closed port of `host` is registered for the service.
     """
 
-    def __init__(self, node: Node, name: str, *, stale: bool = False) -> None:
-        self._node, self._name, self._stale = node, name, stale
+    def __init__(self, node: Node, name: str, *, stale: bool = False, host: str = "localhost") -> None:
+        self._node, self._name, self._stale, self._host = node, name, stale, host
         self._former: Registration | None = None
         self._uri = ""
 
@@ -206,7 +206,7 @@ class Absent:
         if self._former:
             self._node.master.unregister_service(self._former.node, self._name, self._former.uri)
         if self._stale:
-            self._uri = f"rosrpc://localhost:{closed_port()}"
+            self._uri = f"rosrpc://{self._host}:{closed_port()}"
             self._node.register(self._name, self._uri)
         return self
 

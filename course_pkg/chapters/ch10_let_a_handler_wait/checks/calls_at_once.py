@@ -167,17 +167,19 @@ def calls_at_once(context: CheckContext) -> None:
         few = context.random.integer(3, 4)
         slow = (1, context.random.number(SHORTEST, LONGEST))
         runs = context.random.shuffled([slow, (few, 0.0), (context.random.integer(24, 36), 0.0)])
-        late = max([_round(context, count, hold) for count, hold in runs])
+        earlier: list[str] = []
+        late = max([_round(context, earlier, count, hold) for count, hold in runs])
         if late > PROMPT:
-            _round(context, few, late + LONGER)
+            _round(context, earlier, few, late + LONGER)
     finally:
         context.run("proxy_watch.end")
 
 
-def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
+def _round(context: CheckContext, earlier: list[str], count: int, hold: float = 0.0) -> float:
     """Let the student's function make `count` calls that take `hold` s each.
 
-    Return the time in s from the last response to the end of the function.
+    Return the time in s from the last response to the end of the function. `earlier` contains the messages
+    of earlier runs; the function adds the messages of this run.
     """
     name = f"/{context.random.word()}"
     proxies = Proxies()
@@ -192,7 +194,8 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
     _called(context, count, gate)
     _calls_itself(context, server)
     _shares_no_proxy(context, proxies, server)
-    _returned(context, words, found)
+    _returned(context, words, found, earlier)
+    earlier += words
     server.leave()
     return late
 
@@ -255,7 +258,7 @@ def _shares_no_proxy(context: CheckContext, proxies: Proxies, server: ScriptedSe
     )
 
 
-def _returned(context: CheckContext, words: list[str], found: Json) -> None:
+def _returned(context: CheckContext, words: list[str], found: Json, earlier: list[str]) -> None:
     items = found if isinstance(found, list) else []
     context.require(
         "call_at_once() returns a list with the message of each response",
@@ -264,6 +267,11 @@ def _returned(context: CheckContext, words: list[str], found: Json) -> None:
         actual=found,
         hints=[
             (None, NO_RETURN),
+            (
+                lambda actual: isinstance(actual, list) and any(item in earlier for item in actual),
+                "The list also contains messages of an earlier call of the function. Create a new list "
+                "inside the function: a list as a default argument is created only once.",
+            ),
             (
                 lambda actual: isinstance(actual, list) and sorted(map(str, actual)) == sorted(set(words)),
                 "Two clients got the same message, but the result contains this message only once. "

@@ -57,6 +57,7 @@ def break_transport():
 
 def kept_proxies():
     # A proxy can be in an attribute of the client, or in a list or another object of the client.
+    gc.unfreeze()  # After gc.freeze(), get_objects() would not return the older objects.
     proxies = [each for each in gc.get_objects() if issubclass(type(each), rospy.ServiceProxy)]
     return [each for each in proxies if each.transport and each.resolved_name == service_name]
 """

@@ -16,15 +16,20 @@ TYPED_HEADER = """
 import socket
 
 
-def typed_header(pack_header, fields, name):
-    packed = pack_header(fields)
+def typed_header(pack_header, fields, name, times=1):
+    packed = pack_header({key: value * times for key, value in fields.items()})
     sent = type(packed) in (type(b""), bytearray)
     if sent:
         with socket.socket(socket.AF_UNIX) as sock:
             sock.connect("\\0" + name)
             sock.sendall(packed)
-    return [packed, sent, type(packed).__name__]
-"""  # The check receives bytes as a list of numbers, but only bytes can be sent through a socket.
+    return [None if sent else packed, sent, type(packed).__name__]
+"""  # Only bytes can be sent through a socket; the check gets any other result as plain data.
+TIMES = 220  # A text of 300 letters is repeated TIMES times, so its length needs more than two bytes.
+FOUR_BYTES = (
+    "A length was too large for one or two bytes. Use all 4 bytes of each length: struct.pack with '<I' "
+    "writes such a number."
+)
 ERRORS = [
     (
         matches("UnicodeEncodeError"),
@@ -35,10 +40,7 @@ ERRORS = [
     ),
     (
         matches("range|OverflowError|too big|format requires"),
-        (
-            "The function failed because a length was greater than 255. Use all 4 bytes of each length: "
-            "struct.pack with '<I' writes such a number."
-        ),
+        FOUR_BYTES,
     ),
 ]
 
@@ -80,14 +82,14 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
 def packed_header(context: CheckContext) -> None:
     """For several dicts of fields, compare the bytes from the student's function with the right headers.
 
-    The dicts contain random fields, a letter that needs two bytes, no fields, or a field longer than 255
-    bytes.
+    The dicts contain random fields, a letter that needs two bytes, no fields, a field longer than 255 bytes,
+    or a field longer than 65535 bytes.
     """
     word = context.random.word
     context.prepare(TYPED_HEADER)
     for what, fields in (
         ("two fields", {"service": f"/{word()}", "md5sum": word(32)}),
-        ("a letter that is not in ASCII", {"session": "", "robot": f"Jürgen {word(3)}"}),
+        ("a letter that is not in ASCII", {"session": "", "Tür": f"Jürgen {word(3)}"}),
         ("no field", {}),
         ("two fields", {"type": f"my/{word()}", "message_definition": word(300)}),
     ):
@@ -97,7 +99,7 @@ def packed_header(context: CheckContext) -> None:
             packed, sent, kind = context.run(
                 "typed_header", *its, hints=ERRORS, worded="pack_header()"
             ).returned(list)
-            received = receiver.received() if sent is True else b""
+            packed = list(receiver.received()) if sent is True else packed
         # TCPROS allows any order of the fields.
         orders = [dict(order) for order in permutations(fields.items())]
         expected = [list(_packed(order)) for order in orders]
@@ -109,7 +111,7 @@ def packed_header(context: CheckContext) -> None:
         )
         context.require(
             assertion,
-            holds=sent is True and packed == list(received),
+            holds=sent is True,
             expected="bytes",
             actual=f"a {kind} that is not bytes" if kind == "bytes" else kind,
             hints=(
@@ -117,6 +119,25 @@ def packed_header(context: CheckContext) -> None:
                 "bytes(...)."
             ),
         )
+    _packs_a_long_field(context, word(300))
+
+
+def _packs_a_long_field(context: CheckContext, text: str) -> None:
+    """Assert that the function packs long fields; the report does not show the many bytes."""
+    fields = {"type": f"my/{text[:6]}", "message_definition": text}
+    with Receiver() as receiver:
+        its = Its("pack_header"), fields, receiver.name, TIMES
+        context.run("typed_header", *its, hints=ERRORS, worded="pack_header()").returned(list)
+        received = receiver.received()
+    orders = permutations((name, value * TIMES) for name, value in fields.items())
+    expected = [_packed(dict(order)) for order in orders]
+    context.require(
+        "two fields: the function returns a TCPROS header",
+        holds=received in expected,
+        expected=f"the {len(expected[0])} bytes of a header with a long field",
+        actual=f"{len(received)} bytes, but not the right bytes",
+        hints=FOUR_BYTES,
+    )
 
 
 def _packed(
@@ -132,8 +153,13 @@ def _packed(
     """Return the bytes of a header; with the default arguments, the header is right."""
     texts = [f"{name}{joint}{value}" for name, value in fields.items()]
     coded = [(count(text), text.encode(code)) for text in texts]
-    body = b"".join((struct.pack(order, length) if lengths else b"") + data for length, data in coded)
-    return (struct.pack(order, total(body)) if total else b"") + body
+    body = b"".join((_length(order, length) if lengths else b"") + data for length, data in coded)
+    return (_length(order, total(body)) if total else b"") + body
+
+
+def _length(order: str, length: int) -> bytes:
+    """Return the bytes of a length; if the format `order` is too short, return only the lower bytes."""
+    return struct.pack(order, length % 256 ** struct.calcsize(order))
 
 
 def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:

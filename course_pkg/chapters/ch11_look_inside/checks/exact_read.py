@@ -61,7 +61,7 @@ NOT_RAISED: Hints = [
 def exact_read(context: CheckContext) -> None:
     """Send bytes to the student's function: in one piece, in several pieces, and with additional bytes.
 
-    At the end, close the connection before all bytes are sent.
+    At the end, close the connection before all bytes are sent, and then before the first byte is sent.
     """
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
@@ -83,20 +83,8 @@ def exact_read(context: CheckContext) -> None:
     _receives(context, "receive() reads no bytes of the next message", joined, [12, 12])
     _receives(context, "receive() returns no bytes if `count` is 0", [whole], [0, 12])
     context.fulfilled(RECEIVED)
-    with OtherEnd([whole[:7]], closes=True) as other:
-        context.prepare(YOUR_END.format(name=other.name))
-        context.run("receive", Its("your_end"), 12, within=WITHIN, hints=_receive_errors()).raised(
-            "if the connection ends before the last byte, receive() raises ConnectionError",
-            "ConnectionError",
-            hints=NOT_RAISED,
-        )
-        context.require(
-            "if the connection ends before the last byte, receive() raises ConnectionError",
-            holds=context.run("is_open", worded="receive()").returned() is True and other.is_open(),
-            expected="a socket that is still open",
-            actual="a closed socket",
-            hints=CLOSED,
-        )
+    for sent in ([whole[:7]], []):
+        _reports_the_end(context, sent)
 
 
 TAKEN = (
@@ -105,6 +93,23 @@ TAKEN = (
 )
 
 CLOSED = "The function closed the socket. Leave the socket open, because the caller still uses it."
+
+
+def _reports_the_end(context: CheckContext, sent: list[bytes]) -> None:
+    """Close the connection after the pieces in `sent`, which have fewer than 12 bytes."""
+    assertion = "if the connection ends before the last byte, receive() raises ConnectionError"
+    with OtherEnd(sent, closes=True) as other:
+        context.prepare(YOUR_END.format(name=other.name))
+        context.run("receive", Its("your_end"), 12, within=WITHIN, hints=_receive_errors()).raised(
+            assertion, "ConnectionError", hints=NOT_RAISED
+        )
+        context.require(
+            assertion,
+            holds=context.run("is_open", worded="receive()").returned() is True and other.is_open(),
+            expected="a socket that is still open",
+            actual="a closed socket",
+            hints=CLOSED,
+        )
 
 
 def _receives(
@@ -159,8 +164,8 @@ def _receive_errors(count: int = 1) -> Hints:
             matches("^TimesUp"),
             (
                 "An earlier call of the function received too many bytes, so the next call waits for bytes "
-                "that do not come. "
-                "Pass only the number of missing bytes to recv(), or call makefile() with buffering=0."
+                "that do not come. Pass only the number of missing bytes to recv(), or call makefile() with "
+                "buffering=0 and read in a loop."
             ),
         ),
         (

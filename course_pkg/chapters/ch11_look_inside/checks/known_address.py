@@ -13,6 +13,8 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, Refuse, matches, pa
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.scripted_server import Act, ScriptedServer
 
+# TCP cannot connect to a multicast address, so connect() raises an OSError that is not a ConnectionError.
+MULTICAST = "224.0.0.1"
 STORED = "Look up the address once, and use the stored address for all calls."
 
 LOST = [
@@ -42,6 +44,19 @@ RESET = [
         ),
     )
 ]
+UNREACHABLE = [
+    (
+        matches("OSError|unreachable|Errno"),
+        (
+            "The stored address was not reachable, and `ask()` raised an OSError that is not a "
+            "ConnectionError. Catch every kind of OSError."
+        ),
+    )
+]
+AT_THE_OLD_ADDRESS = (
+    "Your method called `ask()` several times with the old address. After the first OSError, look up the "
+    "address again."
+)
 SHARED = (
     "A second object of the class changed the server address that the first object uses. Store "
     "the address in self, so that each object has its own address."
@@ -93,6 +108,7 @@ def client_with_a_known_address(context: CheckContext) -> None:
     ]
     _measures_both(context, client, "the client also stores the new address", numbers[2], kept)
     _finds_it_after_a_reset(context, name, client, moved, numbers[0])
+    _finds_it_after_another_error(context, numbers[1])
 
 
 def _finds_it_after_a_reset(
@@ -104,9 +120,16 @@ def _finds_it_after_a_reset(
     """
     former.leave()
     assertion = "the client finds a server that has a new address"
-    with ResettingPort(former.uri):
+    with ResettingPort(former.uri) as old:
         last = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), numbers, strict=True)))
         _measures_both(context, client, assertion, numbers, RESET)
+    context.require(
+        assertion,
+        holds=old.connections < 2,
+        expected="one call of ask() with the old address",
+        actual=f"calls of ask() with the old address: {old.connections}",
+        hints=AT_THE_OLD_ADDRESS,
+    )
     last.leave()
     with ResettingPort(context.absent(name, stale=True).uri) as port:
         result = client.measure(())
@@ -120,6 +143,17 @@ def _finds_it_after_a_reset(
             (ANYTHING, "The second call also failed. Raise the error of the second call."),
         ],
     )
+
+
+def _finds_it_after_another_error(context: CheckContext, numbers: list[float]) -> None:
+    """Register an address to which no program can connect, and then start the server."""
+    name = f"/{context.random.word()}"
+    context.absent(name, stale=True, host=MULTICAST)
+    client = Client(context, "Remembering", name)
+    client.measure(())  # This call fails. A client may look up the address already in its constructor.
+    context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), numbers, strict=True)))
+    assertion = "the client finds a server that has a new address"
+    _measures_both(context, client, assertion, numbers, UNREACHABLE)
 
 
 def _keeps_the_address(context: CheckContext, name: str, client: Client, numbers: list[float]) -> None:

@@ -10,7 +10,7 @@ from course_pkg.chapters.ch11_look_inside.checks.client_calls import (
     sends_the_sides,
 )
 from course_pkg.chapters.ch11_look_inside.checks.client_in_kernel import Client
-from course_pkg.checking import ANYTHING, CheckContext, HangUp, Refuse, part
+from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Refuse, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.scripted_server import Act, ScriptedServer
 from course_pkg.ros.protocol.json_channel import Json
@@ -31,6 +31,10 @@ REFUSED = (
         "The server refused the call, but the connection works. Call the service again only if the "
         "connection broke."
     ),
+)
+SHARED = (
+    "A second object of the class changed the proxy that the first object uses. Store the proxy in self, so "
+    "that each object has its own proxy."
 )
 ONE_FOR_ALL = "Use one connection for all calls, even after a refused call."
 
@@ -60,6 +64,8 @@ def persistent_client(context: CheckContext) -> None:
         _measures(context, client, "measure() returns the response", volume)
     sends_the_sides(context, client, server, "measure() returns the response")
     _one_connection(context, server, "the calls share one connection")
+    acts.insert(0, {"volume": volumes[7]})
+    _shares_no_proxy(context, client, volumes[7])
     acts.insert(0, Refuse("not this box"))
     reports_a_refusal(context, client, server, *REFUSED)
     acts.pop(0)
@@ -100,7 +106,25 @@ def _next_act(acts: list[Act]) -> Act:
     return acts[0] if isinstance(acts[0], Refuse) else acts.pop(0)
 
 
-def _measures(context: CheckContext, client: Client, assertion: str, volume: Json) -> None:
+def _shares_no_proxy(context: CheckContext, client: Client, volume: Json) -> None:
+    """Let a second object of the student's class call another service, and then call the first object."""
+    name, sides = f"/{context.random.word()}", context.random.numbers(3, 0.5, 9.0)
+    other = context.serve(name, GEOMETRY, lambda _: {"volume": 100.0})
+    context.run("measured_by_another", Its("Keeper"), name, *sides)
+    _measures(context, client, "measure() returns the response", volume, SHARED)
+    other.leave()
+
+
+OLD_RESPONSE = (
+    "The server sent a different response to this call. Return the response to this call, even after a "
+    "broken connection, and not a stored response."
+)
+
+
+def _measures(
+    context: CheckContext, client: Client, assertion: str, volume: Json, different: str = OLD_RESPONSE
+) -> None:
+    """Assert that `measure` returns the volume; `different` is the hint for another response."""
     context.expect(
         assertion,
         expected={"volume": volume},
@@ -112,13 +136,7 @@ def _measures(context: CheckContext, client: Client, assertion: str, volume: Jso
                 (lambda actual: not isinstance(actual, dict)),
                 "The method returned only a part of the response. Return the whole response of the proxy.",
             ),
-            (
-                ANYTHING,
-                (
-                    "The server sent a different response to this call. Return the response to this call, "
-                    "even after a broken connection, and not a stored response."
-                ),
-            ),
+            (ANYTHING, different),
         ],
     )
 

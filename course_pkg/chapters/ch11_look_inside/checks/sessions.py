@@ -58,6 +58,7 @@ def totals_of_sessions(context: CheckContext) -> None:
     # total fails.
     amounts = context.random.integers(len(turns), 20, 900)
     amounts[3] = -amounts[3]
+    amounts[4] = -amounts[1]  # After this call, the total of the second session is 0.
     totals = dict.fromkeys(turns, 0)
     counts = dict.fromkeys(turns, 0)
     everything = 0
@@ -170,6 +171,13 @@ def _is_right(
                 (
                     "The field `calls` is 0. Set it to the number of calls in this session, including this "
                     "call."
+                ),
+            ),
+            (
+                lambda actual: actual == 1 and total == amount,
+                (
+                    "The number of calls started again at 1, because the total of the session was 0. Test "
+                    "whether your dict contains the session, and not whether its total is 0."
                 ),
             ),
             (ANYTHING, "The field `calls` is wrong. Count the calls of each session separately."),

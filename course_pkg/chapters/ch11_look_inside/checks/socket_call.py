@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import sys
 import textwrap
 
@@ -93,6 +94,18 @@ SLOWLY = (
 NOT_DECODED = (
     "The error message contained letters that are not in ASCII, and your function could not decode "
     "them. Call decode() without an argument to use UTF-8."
+)
+NOT_TESTED = (
+    "The byte for success was 0, but your code read the error message as numbers. Compare this byte with "
+    "b'\\x00', because every bytes object that is not empty is true, even b'\\x00'."
+)
+CUT = (
+    "The exception contains only the beginning of the error message, because its bytes arrived in several "
+    "parts. Use `receive()` to read all bytes of the error message."
+)
+WITHOUT_BEGINNING = (
+    "The beginning of the server's error message is missing. Raise the ServiceException with the whole error "
+    "message."
 )
 BYTES = "The error message is a bytes object, not a string. Convert the bytes with decode()."
 OPEN = (
@@ -317,10 +330,13 @@ def _sends_the_header(context: CheckContext, conversation: Conversation, name: s
 
 
 def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: bool) -> None:
-    """Let the server refuse the call; assert that the error of the student's function contains the reason."""
+    """Let the server refuse the call; assert that the error of the student's function contains `message`.
+
+    The server sends the bytes of the message one after the other. `reason` is the end of the message.
+    """
     name, kind = f"/{context.random.word()}", context.service_class(GEOMETRY)
-    with TcprosServer(kind, (0.0, 0.0), refusal=message, in_handshake=in_handshake) as server:
-        result = context.run("ask", server.uri, name, *context.random.numbers(3, 0.5, 9.0), within=3.0)
+    with TcprosServer(kind, (0.0, 0.0), refusal=message, in_handshake=in_handshake, slowly=True) as server:
+        result = context.run("ask", server.uri, name, *context.random.numbers(3, 0.5, 9.0), within=5.0)
     hint = (
         ('The server\'s header contains the field "error". Check for this field before you send the request.')
         if in_handshake
@@ -336,10 +352,13 @@ def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: 
     text = result.raised(
         assertion,
         "ServiceException",
-        saying=reason,
+        saying=re.escape(message),
         hints=[
             (matches("UnicodeDecodeError"), NOT_DECODED),
             (AS_BYTES, BYTES),
+            (matches("unpack requires"), hint if in_handshake else NOT_TESTED),
+            (lambda error: _is_cut(str(error), message), CUT),
+            (matches(f"^ServiceException.*{reason}"), WITHOUT_BEGINNING),
             (
                 matches("^ServiceException"),
                 f"The exception does not contain the error message of the server. {hint}",
@@ -361,6 +380,12 @@ def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: 
         actual=text,
         hints=BYTES,
     )
+
+
+def _is_cut(error: str, message: str) -> bool:
+    """Return whether the text of the exception is only the beginning of the server's message."""
+    kind, _, text = error.partition(": ")
+    return kind == "ServiceException" and bool(text) and message.startswith(text)
 
 
 def _errors(slowly: bool) -> Hints:
