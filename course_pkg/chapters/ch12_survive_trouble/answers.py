@@ -129,6 +129,17 @@ replace("raise errors[0]", "raise RuntimeError(str(errors[0]))")
 replace("        raise errors[0]", "        raise TimeoutError(str(errors[0]))")
 # %% 12.1 wrong: always waits for the whole time | hint: The function still waited after the response had arrived
 replace("thread.join(seconds)", "time.sleep(seconds)")
+# %% 12.1 wrong: checks the thread once per second | hint: The function still waited after the response had arrived
+replace("thread.join(seconds)", """end = time.monotonic() + seconds
+    while thread.is_alive() and time.monotonic() < end:
+        time.sleep(max(min(1.0, end - time.monotonic()), 0))""")
+# %% 12.1 wrong: hides a thread that is not a daemon thread | hint: Create the thread with daemon=True
+replace(", daemon=True", "")
+replace("def call_within", """all_threads = threading.enumerate
+threading.enumerate = lambda: [thread for thread in all_threads() if thread.daemon]
+
+
+def call_within""")
 # %% 12.1 wrong: checks the thread only ten times | hint: The function still waited after the response had arrived
 replace("thread.join(seconds)", "for _ in range(10):\n        time.sleep(seconds / 10)\n        if not thread.is_alive():\n            break")
 # %% 12.1 wrong: waits longer than the given time | hint: The function did not wait for the given time
@@ -387,6 +398,10 @@ replace("\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))", "")
 # %% 12.3 wrong: always pauses for the same time | hint: The pauses do not grow fast enough
 replace("end, pause = time.monotonic() + deadline, 0.1", "end = time.monotonic() + deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
+# %% 12.3 wrong: waits 0.8 s for each attempt | hint: An attempt took longer than 0.5 s, and its response came too late
+replace("0.5", "0.8")
+# %% 12.3 wrong: limits the length of the pause | hint: The pauses do not grow any more after some attempts
+replace("pause *= 2", "pause = min(2 * pause, 0.5)")
 # %% 12.3 wrong: waits two seconds for each attempt | hint: A call took longer than
 replace("0.5", "2")
 # %% 12.3 wrong: waits a tenth of a second for each attempt | hint: s, so pay() called the till again too early
@@ -569,6 +584,8 @@ replace("while not self … get_node_uri())", """with self.lock:
 replace(".set()", " = True")
 # %% 12.4 wrong: uses another master than the given one | hint: The watchdog did not use
 replace("= name, uri, master, every", "= name, uri, rosgraph.Master(rospy.get_name()), every")
+# %% 12.4 wrong: always pauses for 0.2 s | hint: Between two polls, wait only for the time in the argument `every`
+replace("self.over.wait(self.every)", "self.over.wait(0.2)")
 # %% 12.4 wrong: polls without a pause | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
 # %% 12.4 wrong: doubles the pause while there is no master | hint: The pauses between the polls grew while no master was running

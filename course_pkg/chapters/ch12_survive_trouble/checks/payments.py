@@ -101,7 +101,7 @@ def pays_after(
         expected=books.receipt(requests[-1]) if requests else 0,
         actual=result.returned(),
         hints=[
-            (None, _why_given_up(words, result.took, len(till.arrivals) - arrived)),
+            (None, why_given_up(words, result.took, len(till.arrivals) - arrived)),
             (
                 ANYTHING,
                 (
@@ -123,7 +123,8 @@ def pays_after(
     return len(requests)
 
 
-def _why_given_up(words: str, took: float, tries: int) -> str:
+def why_given_up(words: str, took: float, tries: int) -> str:
+    """Return a hint for a payment of `took` s without a receipt; `tries` calls arrived at the till."""
     begin = f"During this payment, the till was {words}. "
     if took > DEADLINE / 2 and tries < 2:
         return begin + (

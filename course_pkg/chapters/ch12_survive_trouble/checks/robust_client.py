@@ -42,6 +42,10 @@ KEEPING = 2.0
 MOST = 5
 LONG = 12.0
 
+LIMITED = (
+    "The pauses do not grow any more after some attempts. Double each pause, and do not limit the length of "
+    "the pause."
+)
 SLOW_GROWTH = (
     "The pauses do not grow fast enough. After each failed call, make the next pause at least twice as long."
 )
@@ -295,14 +299,14 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         before = len(till.arrivals)
         till.plan.extend([Fault(HangUp())] * MOST)
         pays_after(context, name, till, books, f"failing {MOST} times", LONG)
-        pause = till.arrivals[before + MOST] - till.arrivals[before + MOST - 1]
+        *_, previous, pause = (b - a for a, b in pairwise(till.arrivals[before : before + MOST + 1]))
         longest = 2 ** (MOST - 1) * PAUSE
         context.require(
             "each pause is longer than the previous pause",
             holds=pause > 0.95 * longest,
             expected=f"a pause of {longest:g} s before attempt {MOST + 1}",
             actual=f"{pause:.2f} s",
-            hints=SLOW_GROWTH,
+            hints=LIMITED if pause < 1.5 * previous else SLOW_GROWTH,
         )
 
 

@@ -18,6 +18,9 @@ LONG = 4.0  # This time limit in s is longer than the duration of every call.
 VERY_LONG = 25.0
 HELD = 10.0  # The server delays a response by at most this time in s.
 WORK = 0.3  # WORK is the duration of a slow handler in s.
+# The fastest of several calls must return within this time in s after the response.
+PROMPT = 0.35
+MEASURED = 5  # The check measures the time after a response in at most this many calls.
 SLACK = 1.2  # SLACK is the additional time in s that a call may take on a busy machine.
 KERNEL_CODE = (
     UNCHANGED_CLOCK
@@ -28,19 +31,21 @@ import rospy
 from course_pkg.srv import AddTwoInts
 
 
+def waits_for():
+    # At the end of a program, Python 3.11 waits for the threads whose locks are in _shutdown_locks.
+    return {*getattr(threading, "_shutdown_locks", ())}
+
+
 class CheckedCall:
     def call(self, function, name, seconds, a, b):
-        threads, began = threading.enumerate(), clock.process_time()
+        waits, began = waits_for(), clock.process_time()
+        threads = [*threading._active.values()]  # A student can replace the function enumerate().
         try:
             response = function(seconds, rospy.ServiceProxy(name, AddTwoInts), a, b)
         finally:
             self.busy = clock.process_time() - began  # s of processor time
-            new = [thread for thread in threading.enumerate() if thread not in threads]
-            # At the end of a program, Python 3.11 waits for the threads whose locks are in _shutdown_locks.
-            waits = getattr(threading, "_shutdown_locks", ())
-            self.daemon = all(
-                thread.daemon and getattr(thread, "_tstate_lock", None) not in waits for thread in new
-            )
+            new = [thread for thread in threading._active.copy().values() if thread not in threads]
+            self.daemon = all(thread.daemon for thread in new) and waits_for() <= waits
         return None if response is None else [response.sum]
 
 
@@ -121,9 +126,8 @@ def a_call_with_a_limit(context: CheckContext) -> None:
     name, adder = f"/{context.random.word()}", Adder()
     context.prepare(KERNEL_CODE)
     context.serve(name, ADD, adder)
-    for act, limit in ((None, LONG), (Late(WORK, {}), VERY_LONG)):
-        adder.act = act
-        _responds(context, name, adder, limit)
+    _responds(context, name, adder)
+    _returns_immediately(context, name, adder)
     failures: list[Refuse | HangUp] = [Refuse(f"no {context.random.integer(100, 999)}"), HangUp()]
     for failure in context.random.shuffled(failures):
         adder.act = failure
@@ -171,7 +175,32 @@ def _call(context: CheckContext, name: str, seconds: float, a: int, b: int) -> R
     )
 
 
-def _responds(context: CheckContext, name: str, adder: Adder, limit: float = LONG) -> None:
+def _returns_immediately(context: CheckContext, name: str, adder: Adder) -> None:
+    """Make a slow call several times, because the machine may be busy, and use the fastest call."""
+    adder.act = Late(WORK, {})
+    times = []
+    for _ in range(MEASURED):
+        times.append(_responds(context, name, adder, VERY_LONG))
+        if times[-1] < WORK + PROMPT:
+            break
+    _is_prompt(context, min(times), WORK + PROMPT)
+
+
+def _is_prompt(context: CheckContext, took: float, limit: float) -> None:
+    context.require(
+        "the function returns the response as soon as it arrives",
+        holds=took < limit,
+        expected="the function returns immediately",
+        actual=f"the function returned after {took:.1f} s",
+        hints=(
+            "The function still waited after the response had arrived. Replace the sleep with "
+            "join(seconds), which returns as soon as the thread has ended."
+        ),
+    )
+
+
+def _responds(context: CheckContext, name: str, adder: Adder, limit: float = LONG) -> float:
+    """Assert that the function returns the response; return its duration in s."""
     a, b = context.random.integers(2, 3, 1000)
     before = adder.requests
     result = _call(context, name, limit, a, b)
@@ -202,16 +231,8 @@ def _responds(context: CheckContext, name: str, adder: Adder, limit: float = LON
             "The function called the service more than once. Make only one call, and make it in the thread."
         ),
     )
-    context.require(
-        "the function returns the response as soon as it arrives",
-        holds=result.took < WORK + SLACK + 0.5,
-        expected="the function returns immediately",
-        actual=f"the function returned after {result.took:.1f} s",
-        hints=(
-            "The function still waited after the response had arrived. Replace the sleep with "
-            "join(seconds), which returns as soon as the thread has ended."
-        ),
-    )
+    _is_prompt(context, result.took, WORK + SLACK + 0.5)
+    return result.took
 
 
 def _passes_on(context: CheckContext, name: str, act: Act) -> None:
