@@ -25,6 +25,7 @@ EARLY = 0.1  # The server waits this time in s to see whether the client sends i
 LINGER = 3.0
 # During a slow response, the server waits up to this time in s in total until the client has read the bytes.
 UNREAD = 1.0
+PIECE = 12  # If the server refuses a call, it sends its error message in pieces of this number of bytes.
 REQUEST = 12  # Three float32 values have this many bytes.
 
 
@@ -46,8 +47,9 @@ class ProtocolMistake(Exception):
 class TcprosServer:
     """Responds to geometry calls with the area and the volume in `numbers`.
 
-    If `refusal` is not empty, the server sends this error message instead of a response. If `in_handshake` is
-    True, the server sends the error message already in the connection header.
+    If `refusal` is not empty, the server sends this error message instead of a response, and it sends its
+    bytes in several pieces. If `in_handshake` is True, the server sends the error message already in the
+    connection header.
 
     If `slowly` is True, the server sends each byte separately. Its header then has only the field callerid:
     TCPROS requires no other field of a server, but the clients of ROS refuse such a header.
@@ -124,12 +126,13 @@ class TcprosServer:
             conversation.left_open = not select.select([sock], [], [], LINGER)[0]
 
     def _send(self, sock: socket.socket, data: bytes) -> None:
-        if not self._slowly:
+        if not (self._slowly or self._refusal):
             sock.sendall(data)
             return
         deadline = time.monotonic() + UNREAD
-        for each in data:
-            sock.sendall(bytes([each]))
+        size = 1 if self._slowly else PIECE
+        for start in range(0, len(data), size):
+            sock.sendall(data[start : start + size])
             time.sleep(0.0005)  # Without this pause, TCP would send several bytes together.
             wait_until(lambda: not _has_unread_bytes(sock), deadline - time.monotonic(), interval=0.001)
 
