@@ -54,6 +54,9 @@ replace("cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "cpp)")
 replace("\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
 # %% 13.1 wrong: writes the name of the variable with capital letters | hint: with the same small and capital letters
 replace("${catkin_LIBRARIES}", "${CATKIN_LIBRARIES}")
+# %% 13.1 wrong: links only the library roscpp | hint: A server also needs the libraries that roscpp uses
+replace("add_executable", "link_directories(${catkin_LIBRARY_DIRS})\nadd_executable")
+replace("${catkin_LIBRARIES}", "roscpp")
 # %% 13.1 wrong: omits the folders of the headers | hint: Write include_directories(${catkin_INCLUDE_DIRS}) above add_executable
 replace("\ninclude_directories(${catkin_INCLUDE_DIRS})", "")
 # %% 13.1 wrong: gives the program another name | hint: The program has the wrong name
@@ -116,7 +119,7 @@ replace('advertiseService("box", measure)', """advertiseService<Box::Request, Bo
         response.volume = response.area * request.height;
         return request.length >= 0 && request.width >= 0 && request.height >= 0;
       })""")
-# %% 13.2 wrong: stores the area as an int | hint: The digits after the decimal
+# %% 13.2 wrong: stores the area as an int | hint: because an int stores only whole numbers
 replace("response.area = request", "int area = request")
 replace("request.width;", "request.width;\n  response.area = area;")
 replace("volume = response.area", "volume = area")
@@ -142,9 +145,13 @@ replace("true", "response.area >= 0 && response.volume >= 0")
 # %% 13.2 wrong: checks only the volume | hint: below 0. Refuse such a request
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 replace("true", "response.volume >= 0")
+# %% 13.2 wrong: converts the sides to int before the comparison | hint: but a side was between -1 and 0
+replace("request.length < 0 || request.width < 0 || request.height < 0", "int(request.length) < 0 || int(request.width) < 0 || int(request.height) < 0")
+# %% 13.2 wrong: returns the area 0 if the height is 0 | hint: The height was 0, so the volume is 0, but the area is not 0
+replace("  response.area =", "  if (request.height == 0) return true;\n  response.area =")
 # %% 13.2 wrong: refuses a side of 0 | hint: A side was 0, but the handler refused the call
 replace(" 0", "= 0", times=3)
-# %% 13.2 wrong: stores the volume as an int | hint: The digits after the decimal
+# %% 13.2 wrong: stores the volume as an int | hint: because an int stores only whole numbers
 replace("response.volume = response.area", "int volume = request.length * request.width")
 replace("  return true;", "  response.volume = volume;\n  return true;")
 # %% 13.2 wrong: forgets the area | hint: The area is 0
@@ -224,12 +231,16 @@ replace("\n      return 0;\n    }\n    ros::WallDuration(0.2).sleep();\n  }\n  r
 replace("\n  return 1;", "\n  return 0;")
 # %% 13.3 wrong: calculates the volume without the response | hint: The printed volume is not the volume that the server sent
 replace("box.response.volume", "box.request.length * box.request.width * box.request.height")
+# %% 13.3 wrong: prints the volume as a whole number | hint: The digits after the decimal point are missing in the printed volume
+replace("      std::cout << box.response.volume", "      int volume = box.response.volume;\n      std::cout << volume")
 # %% 13.3 wrong: calculates the volume if the server refuses | hint: but the program printed a volume that the server did not send
 replace("if (client.call(box)) {", "if (!client.call(box)) box.response.volume = box.request.length * box.request.width * box.request.height;\n    {")
 # %% 13.3 wrong: does not pause | hint: so the server probably refuses the next call, too
 replace("\n    ros::WallDuration(0.2).sleep();", "")
 # %% 13.3 wrong: waits for five seconds | hint: s, which is too long
 replace("(2)", "(5)")
+# %% 13.3 wrong: waits for three seconds | hint: s, which is too long
+replace("(2)", "(3)")
 # %% 13.3 wrong: waits for two milliseconds | hint: The program waited only a few milliseconds, because waitForService reads a plain number as
 replace('\n  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");', "")
 replace("client.waitForExistence(ros::Duration(2))", 'ros::service::waitForService("box", 2)')

@@ -21,7 +21,8 @@ from course_pkg.waiting import at_this_load, wait_until
 FILE = f"{PACKAGE}/src/patient_client.cpp"
 WAIT = 2.0  # WAIT is the time in s for which the client waits for the service.
 TRIES = 3  # The client makes at most this many calls.
-SLACK = 2.5  # SLACK is the additional time in s that a run may take on a busy machine.
+# Without a server, the client may wait for this additional time in s in the shortest of `ATTEMPTS` runs.
+SLACK, ATTEMPTS = 0.7, 3
 PAUSE = 0.05  # PAUSE is the minimum time in s between two calls.
 TOLERANCE = 0.005  # TOLERANCE is the time in s by which the measured time can be too short.
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
@@ -277,23 +278,26 @@ def _waits_for_a_late_server(context: CheckContext, client: Client) -> None:
 
 
 def _gives_up_without_a_server(context: CheckContext, client: Client, shapes: set[str]) -> None:
-    name, sides, _ = _random_box(context)
-    finished = client.run(name, sides)
+    for _ in range(ATTEMPTS):
+        finished, waited = _run_without_server(context, client)
+        if finished.status is None or waited < WAIT + SLACK:
+            break
     context.require(
         "without a server, the program prints no volume, and ends with exit status 1 after 2 s",
         holds=finished.status == 1
         and not _volumes(finished.out, shapes)
-        and 0.8 * WAIT < finished.took < WAIT + SLACK,
+        and finished.took > 0.8 * WAIT
+        and waited < WAIT + SLACK,
         expected="exit status 1 after about 2 s",
         actual=_outcome(finished, 0),
         hints=(
             "The program waits without a time limit. Write waitForExistence(ros::Duration(2))."
             if finished.status is None
             else (
-                f"The program waited {finished.took:.1f} s, which is too long. Write "
+                f"The program waited {waited:.1f} s, which is too long. Write "
                 "waitForExistence(ros::Duration(2))."
             )
-            if finished.took > WAIT + SLACK
+            if waited > WAIT + SLACK
             else (
                 "When the time is over, waitForExistence returns false. Test its return value, and "
                 "return 1 from main if it is false."
@@ -302,10 +306,27 @@ def _gives_up_without_a_server(context: CheckContext, client: Client, shapes: se
     )
 
 
+def _run_without_server(context: CheckContext, client: Client) -> tuple[Finished, float]:
+    """Run the client without a server; return also the time in s for which the client waited.
+
+    On a busy machine, the start of a program takes long. If the run takes too long, the check therefore runs
+    the client again with a server, and subtracts the time of this run.
+    """
+    name, sides, volume = _random_box(context)
+    finished = client.run(name, sides)
+    if finished.took < WAIT + SLACK:
+        return finished, finished.took
+    client.serve(name, lambda: {"volume": volume})
+    return finished, finished.took - client.run(name, sides).took
+
+
 def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
-    """Return a random service name, three sides, and a volume that differs from the product of the sides."""
+    """Return a random service name, three sides, and a volume that differs from the product of the sides.
+
+    The volume is not a whole number, and a client can print it with the usual six digits.
+    """
     sides = [round(side, 2) for side in context.random.numbers(3, 0.5, 9.0)]
-    return f"/{context.random.word()}", sides, float(context.random.integer(1000, 9000))
+    return f"/{context.random.word()}", sides, context.random.integer(1000, 9000) + 0.5
 
 
 def _refusing(client: Client, name: str, times: int, volume: float) -> tuple[ScriptedServer, list[float]]:
@@ -346,11 +367,16 @@ def _prints(context: CheckContext, finished: Finished, volume: float, assertion:
         holds=finished.status == 0 and volume in numbers,
         expected=f"{volume:g} and exit status 0",
         actual=_outcome(finished),
-        hints=hint or _why_not_printed(finished, numbers),
+        hints=hint or _why_not_printed(finished, numbers, volume),
     )
 
 
-def _why_not_printed(finished: Finished, numbers: list[float]) -> str:
+def _why_not_printed(finished: Finished, numbers: list[float], volume: float) -> str:
+    if finished.status == 0 and any(each.is_integer() and abs(each - volume) < 1 for each in numbers):
+        return (
+            "The digits after the decimal point are missing in the printed volume. Print box.response.volume "
+            "directly, without an int."
+        )
     if finished.status == 0 and numbers:
         return (
             "The printed volume is not the volume that the server sent. Print box.response.volume, and do "

@@ -19,6 +19,10 @@ NO_ROSCPP = (
     "The variable catkin_LIBRARIES contains only the libraries of the packages in "
     "find_package(catkin … COMPONENTS …). Add roscpp after the word COMPONENTS."
 )
+ONLY_ROSCPP = (
+    "A server also needs the libraries that roscpp uses, such as rostime. Write ${catkin_LIBRARIES} into "
+    "target_link_libraries, because this variable contains all these libraries."
+)
 RULE = "catkin_make builds the package"
 BUILT = "devel/lib/cpp_boxes/box_server"
 # With the option -n, make only prints the commands that are necessary after the change of the file.
@@ -56,10 +60,14 @@ PROGRAM = """\
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "sound");
+  ros::Time::init();
+  ros::serialization::serializationLength(course_pkg::geometry::Request());
+  if (!ros::Time::isValid()) ros::serialization::throwStreamOverrun();
   std::cout << "DRAWN" << std::endl;
   return course_pkg::geometry::Request().length != 0;
 }
 """  # A random text replaces `DRAWN`, so only a program built from this code prints the text.
+# Like every server, this program also needs the libraries rostime and roscpp_serialization.
 
 # The student's CMakeLists.txt must not build a program from this file.
 OTHER_PROGRAM = "int main() { return 0; }\n"
@@ -124,8 +132,11 @@ def _builds(context: CheckContext, finished: Finished) -> None:
     # The check's own program is right, so the mistake is in the student's CMakeLists.txt.
     if not fault.file.endswith("CMakeLists.txt"):
         fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
-        if _lacks_roscpp(context.source(f"file:{FILE}")):
+        text = context.source(f"file:{FILE}")
+        if _lacks_roscpp(text):
             fault = replace(fault, remedy=NO_ROSCPP)
+        elif _links_only_roscpp(text):
+            fault = replace(fault, remedy=ONLY_ROSCPP)
     context.fail(
         RULE,
         expected="a successful build",
@@ -153,6 +164,13 @@ def _lacks_roscpp(text: str) -> bool:
     return (
         bool(re.search(r"(?i)target_link_libraries\s*\([^)]*catkin_LIBRARIES", code)) and "roscpp" not in code
     )
+
+
+def _links_only_roscpp(text: str) -> bool:
+    """Return whether CMakeLists.txt links a program with `roscpp`, but not with all of catkin's libraries."""
+    code = re.sub(r"#[^\n]*", "", text)
+    linked = re.findall(r"(?i)target_link_libraries\s*\(([^)]*)\)", code)
+    return any("roscpp" in each for each in linked) and not any("catkin_LIBRARIES" in each for each in linked)
 
 
 def _why_not_there(text: str) -> str:

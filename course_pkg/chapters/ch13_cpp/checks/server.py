@@ -37,7 +37,16 @@ int main(int argc, char** argv) {{
   node.advertiseService("box", measure);
 }}
 """
+AREA = "area is length times width, with the digits after the decimal point"  # the title of an assertion
 SIDES = ("length", "width", "height")
+FRACTION_BELOW = (
+    "The server sent a response, but a side was between -1 and 0. Compare the field of the request itself "
+    "with 0: as an int, such a side is 0."
+)
+EMPTY_AREA = (
+    "The height was 0, so the volume is 0, but the area is not 0. Return length times width as the area of "
+    "each box with a height of 0."
+)
 NO_FRACTION = (
     "The digits after the decimal point are missing, because an int stores only whole numbers. Use "
     "float or auto."
@@ -78,6 +87,8 @@ def box_server(context: CheckContext) -> None:
                 running.examine()
                 _measures(context, box)
                 _refuses(context, box, sides)
+        for side in wrong:
+            _refuses(context, box, [side], -context.random.number(0.1, 0.9))
         for number in range(context.random.integer(1, 20)):
             _measures(context, box, 0.01 if number == 0 else 1.0)
         _measures_empty_boxes(
@@ -115,7 +126,7 @@ def _measures(context: CheckContext, box: Service, scale: float = 1.0) -> None:
         height,
         area=_wrong_area(length, width),
         volume=_wrong_volume(area, height),
-        assertion="area is length times width, with the digits after the decimal point",
+        assertion=AREA,
     )
 
 
@@ -123,13 +134,21 @@ def _measures_empty_boxes(context: CheckContext, box: Service) -> None:
     for side in SIDES:
         response = box(**{each: 0.0 if each == side else 2.5 for each in SIDES})
         context.expect(
+            AREA,
+            expected=6.25 if side == "height" else 0.0,
+            actual=response.area,
+            near=1e-3,
+            hints=EMPTY_AREA,
+        )
+        context.expect(
             "volume is area times height", expected=0.0, actual=response.volume, hints=ZERO_IS_ALLOWED
         )
 
 
-def _refuses(context: CheckContext, box: Service, wrong: Sequence[str]) -> None:
+def _refuses(context: CheckContext, box: Service, wrong: Sequence[str], value: float | None = None) -> None:
+    """Assert that the server refuses a box; the sides `wrong` have the value `value`, or a value below -1."""
     sides = dict(zip(SIDES, context.random.numbers(3, 1.0, 9.0), strict=True))
-    sides.update({side: -sides[side] for side in wrong})
+    sides.update({side: -sides[side] if value is None else value for side in wrong})
     below = f"{' and '.join(wrong)} {'was' if len(wrong) == 1 else 'were'}"
     box.refused(
         "the server refuses a side below 0",
@@ -144,7 +163,9 @@ def _refuses(context: CheckContext, box: Service, wrong: Sequence[str]) -> None:
             ),
             (
                 re.compile(""),
-                (f"The server sent a response, but {below} below 0. Refuse such a request: return false."),
+                FRACTION_BELOW
+                if value is not None
+                else f"The server sent a response, but {below} below 0. Refuse such a request: return false.",
             ),
         ],
         **sides,
