@@ -81,12 +81,16 @@ replace("len(frame.data) != frame", "len(frame.data) < frame")
 replace('frame.encoding != "mono8" or ', "")
 # %% 15.1 wrong: accepts another encoding with one byte per point | hint: The encoding of this frame is not mono8
 replace('frame.encoding != "mono8"', 'frame.encoding not in ("mono8", "8UC1")')
+# %% 15.1 wrong: accepts every encoding that begins with mono | hint: The encoding of this frame is not mono8
+replace('frame.encoding != "mono8"', 'not frame.encoding.startswith("mono")')
 # %% 15.1 wrong: accepts any step | hint: In this frame, a row has fewer bytes than points, which is
 replace(" or frame.step < frame.width", "")
-# %% 15.1 wrong: accepts an empty frame | hint: A frame of 0 by 0 points
+# %% 15.1 wrong: accepts an empty frame | hint: The height of this frame is 0
 replace('if frame.encoding != "mono8" or not frame.width or not frame.height or frame.step < frame.width:\n        return None', 'if frame.encoding != "mono8" or frame.step < frame.width:\n        return None\n    if not frame.data:\n        return False')
 # %% 15.1 wrong: accepts a width of 0 | hint: The width of this frame is 0, so all its bytes are padding
 replace('not frame.width or not frame.height or', 'not frame.data or')
+# %% 15.1 wrong: accepts a height of 0 | hint: The height of this frame is 0, so it has no points
+replace(' or not frame.height', '')
 # %% 15.1 wrong: subscribes with another message type | hint: The node subscribes to the topic of the frames with a wrong type
 replace("import Image", "import CompressedImage as Image")
 # %% 15.1 wrong: uses a global topic name | hint: The program uses the global name
@@ -148,6 +152,9 @@ replace("            self.customer = message.data\n            self.changed.noti
 # %% 15.2 wrong: polls twice per second | hint: A call got its response late, because the handler polls with long pauses
 based_on("uses a loop that polls")
 replace("time.sleep(0.02)", "time.sleep(min(0.5, end - time.monotonic()))")
+# %% 15.2 wrong: polls four times per second | hint: A call got its response late, because the handler polls with long pauses
+based_on("uses a loop that polls")
+replace("time.sleep(0.02)", "time.sleep(min(0.25, end - time.monotonic()))")
 # %% 15.2 wrong: accepts any patience | hint: The handler accepted an impossible value of `patience`
 replace("if not 0 <= request.patience <= 60:", "if False:")
 replace("timeout=request.patience)", "timeout=max(0, request.patience))")
@@ -224,6 +231,9 @@ replace("        with self.changed:\n            found", "        if self.is_sil
 # %% 15.3 wrong: uses only messages that come during the call | hint: A message can also be valid if it
 replace("        with self.changed:\n            found", "        began = time.monotonic()\n        with self.changed:\n            found")
 replace("if not found and self.is_silent()", "if not found and self.arrived < began")
+# %% 15.3 wrong: uses a message until the end of the call in which it comes | hint: A message came during the call, but it was older than 1 s at the end
+replace("        with self.changed:\n            found", "        began = time.monotonic()\n        with self.changed:\n            found")
+replace("if not found and self.is_silent()", "if not found and self.is_silent() and self.arrived < began")
 # %% 15.3 wrong: uses messages for only 0.2 s | hint: The node did not use the last message
 replace("self.arrived > 1.0", "self.arrived > 0.2")
 # %% 15.3 wrong: omits the word "camera" in the error message | hint: The error message does not contain the word "camera"
@@ -290,6 +300,12 @@ replace("len(joints.position) != count or ", "")
 replace(" or len(joints.velocity) not in (0, count)", "")
 # %% 15.5 wrong: mirrors nan | hint: A position or velocity was nan or inf, which is not valid
 replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "True")
+# %% 15.5 wrong: mirrors infinite positions | hint: A position or velocity was nan or inf, which is not valid
+replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "not any(map(math.isnan, joints.position)) and all(map(math.isfinite, joints.velocity))")
+# %% 15.5 wrong: mirrors velocities that are nan | hint: A position or velocity was nan or inf, which is not valid
+replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "all(map(math.isfinite, joints.position)) and not any(map(math.isinf, joints.velocity))")
+# %% 15.5 wrong: mirrors only the first six joints | hint: of the mirror image is too short
+replace("[-value for value in joints.position]", "[-value for value in joints.position[:6]]")
 # %% 15.5 wrong: publishes zeros for an invalid joint state | hint: The node published zeros for an invalid joint state, so the arm would move
 replace("    if is_valid(joints):", "    if not is_valid(joints):\n        joints.position, joints.velocity = [0.0] * len(joints.name), []\n    if True:")
 # %% 15.5 wrong: ignores joint states without velocities | hint: The node ignored a joint state without
@@ -415,6 +431,8 @@ replace("while there is not False and", "while there and")
 replace("there = is_there(0)", "there = is_there(0)\n    is_there(0)")
 # %% 15.6 wrong: does not pause during a visit | hint: wait 0.2 s between two calls
 replace("        if there:\n            rospy.sleep(0.2)\n", "")
+# %% 15.6 wrong: pauses for 1 s during a visit | hint: wait only 0.2 s between two calls, and not longer
+replace("rospy.sleep(0.2)", "rospy.sleep(1.0)")
 # %% 15.6 wrong: does not pause after a refusal | hint: The node made the next call immediately after a failed call
 replace("        rospy.sleep(0.5)\n", "")
 # %% 15.6 wrong: pauses for 3 s after a refusal | hint: the next call came too late
@@ -430,6 +448,11 @@ replace("return detect(patience).found", """results = []
 replace('    greetings.publish("Good day!")\n', "")
 # %% 15.6 wrong: publishes several greetings in a visit | hint: The node published more than one greeting in a visit
 replace("        there = is_there(0)\n", "        there = is_there(0)\n        if there:\n            greetings.publish('Good day!')\n")
+# %% 15.6 wrong: greets the customer at the end of the visit | hint: The greeting came at the end of the visit
+replace('    greetings.publish("Good day!")\n', "")
+replace("    try:\n        reset()", '    greetings.publish("Good day!")\n    try:\n        reset()')
+# %% 15.6 wrong: mirrors invalid joint states | hint: A mirror image is wrong, or it belongs to an invalid joint state
+replace("    if is_valid(joints):", "    if joints is not None:")
 # %% 15.6 wrong: uses the whole response as a truth value | hint: `found` was False, but the node acted as if a customer was there
 replace("return detect(patience).found", "return bool(detect(patience))")
 # %% 15.6 wrong: publishes another greeting | hint: The text of the greeting is wrong
@@ -525,10 +548,14 @@ replace('else "nobody")', 'else "nobody")\n    sys.exit(0 if response.found else
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
 # %% 15.4 wrong: omits the reason in the error message | hint: The output does not contain the reason for the failure
 replace("sys.exit(str(error))", 'sys.exit("failed")')
+# %% 15.4 wrong: prints only a part of the error message | hint: The text of this rospy.ServiceException differs from the text of a refusal
+replace("sys.exit(str(error))", 'text = str(error)\n        sys.exit(text if isinstance(error, rospy.ROSException) and "timeout" in text else text.split("request: ")[1])')
 # %% 15.4 wrong: exits with status 0 after a refusal | hint: The call failed, so the exit status has to be 1
 replace("sys.exit(str(error))", "print(error)\n        return")
 # %% 15.4 wrong: waits without a limit | hint: The service does not exist, and the program waited for more than 3 s
 replace(", timeout=3)", ")")
+# %% 15.4 wrong: waits for four seconds | hint: The service does not exist, and the program waited for more than 3 s
+replace("timeout=3", "timeout=4")
 # %% 15.4 wrong: does not catch the timeout | hint: After its timeout, rospy.wait_for_service raises rospy.ROSException
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ServiceException")
 # %% 15.4 wrong: prints nothing if there is no service | hint: The service does not exist, and the program ended without a message
@@ -585,12 +612,16 @@ replace('f"{request.item}: {request.cents} cents are negative"', '"an item canno
 replace("if not request.item:", "if False:")
 # %% 15.7 wrong: stores an item before it refuses the call | hint: The till refused the call, but the stored items have changed
 replace('    if not request.item:', '    prices[request.item] = request.cents\n    if not request.item:')
+# %% 15.7 wrong: removes the old price before it refuses negative cents | hint: The till refused the call, but the stored items have changed
+replace("    if request.cents < 0:", "    prices.pop(request.item, None)\n    if request.cents < 0:")
 # %% 15.7 wrong: limits a price to 32 bits | hint: The till returned a wrong sum when the sum was above 2147483647
 replace("    prices[request.item] = request.cents\n", "    prices[request.item] = min(request.cents, 2**31 - 1)\n")
 # %% 15.7 wrong: converts the names to small letters | hint: The items milk and MILK are two different items
 replace("prices[request.item]", "prices[request.item.lower()]")
 # %% 15.7 wrong: refuses a price of 0 cents | hint: The till refused a valid item
 replace("request.cents < 0", "request.cents <= 0")
+# %% 15.7 wrong: refuses each name that does not consist of letters | hint: The till refused a valid item
+replace("if not request.item:", "if not request.item.isalpha():")
 # %% 15.7 wrong: raises a ValueError | hint: The handler raised an error that is not a rospy.ServiceException
 replace("raise rospy.ServiceException(f", "raise ValueError(f")
 
@@ -734,6 +765,10 @@ replace("        prices[request.item] =", "        printed.append(request.cents)
 replace("paid = sum(prices.values())", "paid = sum(printed)\n        printed.clear()")
 # %% 15.9 wrong: omits the message for an empty till | hint: The till has no items, so the message has to be "already empty"
 replace('        if not prices:\n            return True, "already empty"\n', "")
+# %% 15.9 wrong: has lost the test of the name | hint: The till accepted an item with an empty name
+replace("if not request.item:", "if False:")
+# %% 15.9 wrong: has lost the test of the cents | hint: The till accepted negative cents
+replace("request.cents < 0", "False")
 # %% 15.9 wrong: checks the sum instead of the items | hint: The till has an item that costs 0 cents, so it is not empty
 replace("if not prices:", "if not sum(prices.values()):")
 # %% 15.9 wrong: does not remove the items | hint: The till still has items after a reset
@@ -804,6 +839,10 @@ replace('type="till.py"', 'type="till.py" launch-prefix="rosrun course_pkg till"
 replace('name="till" />', 'name="till"><remap from="till/set" to="nobody" /></node>')
 # %% 15.10 wrong: remaps a topic with the attribute args | hint: The file gives another name to a topic or service of a node
 replace('name="vision" />', 'name="vision" args="customer_seen:=nobody" />')
+# %% 15.10 wrong: sets the parameter use_sim_time | hint: The parameter /use_sim_time is true
+replace('  <group', '  <param name="/use_sim_time" value="true" />\n  <group')
+# %% 15.10 wrong: sets another master for a node | hint: The file sets ROS_MASTER_URI for a node
+replace('name="till" />', 'name="till"><env name="ROS_MASTER_URI" value="http://cashier:11311" /></node>')
 # %% 15.10 wrong: omits the parameter | hint: The node robot_cashier has no parameter "wait"
 replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: sets the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
@@ -844,6 +883,11 @@ based_on("sets a respawn delay and output on the screen")
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
 # %% 15.11 wrong: starts only the nodes that this check uses | hint: Without an argument, the file does not start all nodes of the hardware
 replace('<group if="$(arg hardware)"> … </group>', "")
+# %% 15.11 wrong: always starts the robot | hint: With hardware:=false, counter_camera, robot and receipt_printer must not start
+based_on("sets a respawn delay and output on the screen")
+replace('<node if="$(arg hardware)" name="robot"', '<node name="robot"')
+# %% 15.11 wrong: sets the parameter wait to a fixed value | hint: The parameter always has the same value, even if the user passes another value
+replace('value="$(arg wait)"', 'value="2.0"')
 # %% 15.11 wrong: does not set respawn | hint: roslaunch did not start a node again
 replace(' respawn="true"', "", times=4)
 # %% 15.11 wrong: sets a respawn delay of 10 s | hint: The attribute respawn_delay makes roslaunch

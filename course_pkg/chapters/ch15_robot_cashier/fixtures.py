@@ -27,7 +27,9 @@ RESPAWNING = """\
   <node if="$(arg hardware)" pkg="course_pkg" type="receipt_printer" name="receipt_printer" />
   <node pkg="my_cashier" type="vision.py" name="vision" respawn="true" />
   <node pkg="my_cashier" type="customer_detector.py" name="customer_detector" respawn="true" />
-  <node pkg="my_cashier" type="robot_cashier.py" name="robot_cashier" respawn="true" />
+  <node pkg="my_cashier" type="robot_cashier.py" name="robot_cashier" respawn="true">
+    <param name="wait" value="$(arg wait)" />
+  </node>
   <node pkg="my_cashier" type="till.py" name="till" respawn="true" />
 </launch>
 """

@@ -28,6 +28,8 @@ for node in config.nodes:
     for old, new in remapped:
         if new.strip("/") != old.strip("/"):
             print("remapped", node.namespace + node.name, old, new)
+    for key, value in node.env_args:
+        print("environment", node.namespace + node.name, key, value)
     print("respawn_delay", node.namespace + node.name, node.respawn_delay)
     for key, value in re.findall(r"(?<!\\S)_(\\w+):=(\\S+)", node.args or ""):
         print(f"{node.namespace}{node.name}/{key}: {value}")
@@ -92,6 +94,14 @@ IN_NAMESPACE = (
     "In a namespace, the node robot_cashier does not get the parameter, because its name in the file begins "
     "with a slash. Write the <param> tag inside the <node> tag of robot_cashier."
 )
+SIMULATED = (
+    "The parameter /use_sim_time is true, so the nodes use the time of a clock that does not exist, and each "
+    "rospy.sleep() waits without end. Remove this parameter."
+)
+OTHER_MASTER = (
+    "The file sets ROS_MASTER_URI for a node, so the other nodes cannot find this node. Remove the <env> "
+    "tag: all nodes use the same master."
+)
 LISTED = "Start the nodes of the hardware only with hardware:=true. Always start all other nodes."
 
 
@@ -119,14 +129,15 @@ def the_launch_file(context: CheckContext) -> None:
         line = reader_line(*words)
         worded = f"the nodes and the parameters of {FILE} {given_words}"
         printed = package.run(line, within=READING, worded=worded.strip()).out
-        _passes_the_argument(context, printed, value, words)
+        passes_the_argument(context, printed, value, words)
         starts_programs(context, printed)
         _remaps_nothing(context, printed)
+        _keeps_clock_and_master(context, printed)
     space = f"/{context.random.word()}"
     line = f"env ROS_NAMESPACE={space} {reader_line(*given)}"
     worded = f"the parameters of {FILE} in the namespace {space}"
     printed = package.run(line, within=READING, worded=worded).out
-    _passes_the_argument(context, printed, wait, given, space)
+    passes_the_argument(context, printed, wait, given, space)
 
 
 def reader_line(*given: str) -> str:
@@ -145,6 +156,22 @@ def _remaps_nothing(context: CheckContext, printed: str) -> None:
                 "The file gives another name to a topic or service of a node, so other nodes do not find it. "
                 'Remove the <remap> tag, or the part with := in the attribute "args".'
             ),
+        )
+
+
+def _keeps_clock_and_master(context: CheckContext, printed: str) -> None:
+    """Assert that the nodes use the clock of the computer, and the same master."""
+    for pattern, hint in (
+        (r"^/use_sim_time: '?true.*", SIMULATED),
+        (r"^environment \S+ ROS_MASTER_URI .*", OTHER_MASTER),
+    ):
+        found = re.search(pattern, printed, re.MULTILINE | re.IGNORECASE)
+        context.require(
+            "each node uses the clock of the computer and the same master",
+            holds=found is None,
+            expected="no other clock, and no other master",
+            actual=found[0] if found else "",
+            hints=hint,
         )
 
 
@@ -206,7 +233,7 @@ def _lists(context: CheckContext, printed: str, given: str, wanted: Sequence[str
     )
 
 
-def _passes_the_argument(
+def passes_the_argument(
     context: CheckContext, printed: str, wait: float, given: list[str], space: str = ""
 ) -> None:
     """Assert that the private parameter of the cashier has the value of the argument `wait`.
@@ -250,6 +277,18 @@ def starts_the_hardware(context: CheckContext, printed: str, assertion: str) -> 
             "Without an argument, the file does not start all nodes of the hardware. Copy your file of "
             'exercise 15.10, and add only respawn="true".'
         ),
+    )
+
+
+def starts_no_hardware(context: CheckContext, printed: str, assertion: str) -> None:
+    """Assert that no node of the hardware starts; `printed` is READER's output with hardware:=false."""
+    nodes = re.findall(r"^node /(\S+) ", printed, re.MULTILINE)
+    context.require(
+        assertion,
+        holds=not set(HARDWARE) & set(nodes),
+        expected=f"only {', '.join(NODES)} for hardware:=false",
+        actual=", ".join(nodes),
+        hints=NO_HARDWARE,
     )
 
 

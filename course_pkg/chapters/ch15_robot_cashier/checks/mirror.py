@@ -213,6 +213,13 @@ def _wrong_signs(field: str, values: list[float]) -> Hints:
             ),
         ),
         (
+            lambda actual: len(actual) < len(values),
+            (
+                f"The list `{field}` of the mirror image is too short. An arm can have any number of joints: "
+                "change the sign of all numbers in the list."
+            ),
+        ),
+        (
             [-abs(value) for value in values],
             "A negative number has to become a positive number. Use -value, not -abs(value).",
         ),

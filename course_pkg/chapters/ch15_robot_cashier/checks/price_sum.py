@@ -78,8 +78,9 @@ def the_sum(context: CheckContext) -> None:
         totals(context, total, prices, COUNT, SUM)
         context.fulfilled(SUMMED)
         amount = -context.random.integer(1, 900)
-        item = context.random.word()
-        for word in (str(amount), item):
+        new, known = context.random.word(), items[0][0]
+        # The till refuses a new item, and then a new price of an item that it already has.
+        for item, word in ((new, str(amount)), (new, new), (known, known)):
             refused(
                 context,
                 till.set,

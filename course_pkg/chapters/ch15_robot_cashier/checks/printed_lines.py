@@ -10,8 +10,6 @@ from course_pkg.chapters.ch15_robot_cashier.checks.peers.printer import Printer
 from course_pkg.chapters.ch15_robot_cashier.checks.refusals import refused
 from course_pkg.chapters.ch15_robot_cashier.checks.till import (
     NAME,
-    NAMELESS,
-    NEGATIVE,
     NOT_ADDED,
     PRINT,
     PRINT_LINE,
@@ -22,6 +20,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.till import (
     TWICE,
     Till,
     random_items,
+    refuses_illegal_items,
     running_till,
     sets,
     totals,
@@ -167,10 +166,7 @@ def _printed_again(printer: Printer, before: int, error: object) -> bool:
 
 def _prints_no_illegal_item(context: CheckContext, till: Till) -> None:
     before = len(till.printer.lines)
-    refused(
-        context, till.set, "the till refuses an item without a name", "", item="", cents=5, hints=NAMELESS
-    )
-    refused(context, till.set, "the till refuses negative cents", "", item="x", cents=-5, hints=NEGATIVE)
+    refuses_illegal_items(context, till)
     context.expect(
         "the till prints nothing for a refused item",
         expected=[],

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
 from course_pkg.chapters.ch15_robot_cashier.checks.peers.printer import Printer
+from course_pkg.chapters.ch15_robot_cashier.checks.refusals import refused
 from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, student_node
 from course_pkg.checking import CheckContext, matches
 from course_pkg.checking.assertions import Hints
@@ -67,9 +69,10 @@ def running_till(context: CheckContext, *names: str) -> Iterator[Till]:
 
 
 def random_items(context: CheckContext, count: int) -> list[tuple[str, int]]:
-    """Return items with different names; their prices are in cents."""
+    """Return items with different names, some of them with a space or a digit; their prices are in cents."""
     cents = context.random.integers(count, 50, 900)
-    return [(context.random.word(), amount) for amount in cents]
+    forms = itertools.cycle(("{}", "green {}", "7{}", "{}-2"))
+    return [(form.format(context.random.word()), amount) for amount, form in zip(cents, forms, strict=False)]
 
 
 NOT_ADDED = "The total is wrong. Return the sum of the cents of all items, including the item of this call."
@@ -85,6 +88,14 @@ def sets(context: CheckContext, till: Till, item: str, cents: int, total: int, h
     """Set the price of an item, and assert that the response contains `total`, the sum of all prices."""
     response = till.set(item=item, cents=cents)
     context.expect("till/set returns the total", expected=total, actual=response.total, hints=hint)
+
+
+def refuses_illegal_items(context: CheckContext, till: Till) -> None:
+    """Assert that the till refuses an empty name and negative cents."""
+    refused(
+        context, till.set, "the till refuses an item without a name", "", item="", cents=5, hints=NAMELESS
+    )
+    refused(context, till.set, "the till refuses negative cents", "", item="x", cents=-5, hints=NEGATIVE)
 
 
 def totals(context: CheckContext, total: Service, prices: dict[str, int], count: str, cents: str) -> None:

@@ -17,6 +17,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.till import (
     TWICE,
     Till,
     random_items,
+    refuses_illegal_items,
     running_till,
     totals,
 )
@@ -83,6 +84,7 @@ def the_reset(context: CheckContext) -> None:
         till.set(item=items[0][0], cents=0)
         _resets(context, reset, "paid 0 cents", FREE_ITEM)
         context.fulfilled(EMPTIED)
+        refuses_illegal_items(context, till)
         _waits_for_a_line(context, till, reset, total)
         till.set(item=items[0][0], cents=items[0][1])
         till.server.leave()

@@ -234,14 +234,15 @@ def _shows_the_last(context: CheckContext, camera: Camera, seen: Subscription, d
 
 def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tuple[str, Image, str]]:
     dark = width * height
-    frames = [image_of(context, width, height, dark) for _ in range(7)]
+    frames = [image_of(context, width, height, dark) for _ in range(8)]
     frames[0].data = frames[0].data[:-3]
     frames[1].data += b"\0"
     frames[2].encoding, frames[2].step, frames[2].data = "rgb8", 3 * width, frames[2].data * 3
     frames[3].step, frames[3].data = width - 1, frames[3].data[height:]
-    frames[4].width, frames[4].height, frames[4].step, frames[4].data = 0, 0, 0, b""
+    frames[4].height, frames[4].data = 0, b""
     frames[5].width, frames[5].step, frames[5].data = 0, 4, bytes(4 * height)
     frames[6].encoding = "8UC1"
+    frames[7].encoding, frames[7].step, frames[7].data = "mono16", 2 * width, frames[7].data * 2
     return [
         (
             "too few bytes",
@@ -261,6 +262,7 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
         ),
         ("another encoding", frames[2], ENCODING),
         ("another encoding", frames[6], ENCODING),
+        ("another encoding", frames[7], ENCODING),
         (
             "a step below the width",
             frames[3],
@@ -270,9 +272,10 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
             ),
         ),
         (
-            "no points and no bytes",
+            "no rows",
             frames[4],
-            "A frame of 0 by 0 points is not valid. Publish nothing if frame.width or frame.height is 0.",
+            "The height of this frame is 0, so it has no points. Publish nothing if frame.width or "
+            "frame.height is 0.",
         ),
         (
             "no points in a row",

@@ -23,6 +23,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.commands.folder import Running, telling_line
 from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.checking.plain_values import Fields
 from course_pkg.waiting import wait_until
 
 GREETINGS = "greetings"
@@ -31,10 +32,14 @@ AWAIT = "course_pkg/AwaitCustomer"
 TRIGGER = "std_srvs/Trigger"
 STRING = "std_msgs/String"
 GREETING = "Good day!"
+VALID: Fields = {"name": ["a"], "position": [0.1]}
+INVALID: Fields = {"name": ["b"], "position": []}
 # The measured pause must be between these limits (s); the exercise requires 0.5 s, and the machine may be
 # busy.
 PAUSE, TOO_LONG = 0.4, 2.0
-BETWEEN = 0.18  # BETWEEN is the minimum time in s between two calls while a customer is there.
+# While a customer is there, the time in s between two calls is at least BETWEEN; the shortest of these times
+# is at most AT_MOST.
+BETWEEN, AT_MOST = 0.18, 0.6
 NEXT_CALL = 6.0  # NEXT_CALL is the time limit in s for the next call on a busy machine.
 NO_CALL = (
     "No call arrived. In the main thread, call detect_customer in a loop until rospy.is_shutdown() "
@@ -80,6 +85,10 @@ VISIT_OVER = (
     "the next call to the value of ~wait."
 )
 HASTY = "The next call came too early. While a customer is there, wait 0.2 s between two calls."
+SLOW = (
+    "The next calls came too late. While a customer is there, wait only 0.2 s between two calls, and not "
+    "longer."
+)
 NO_PAUSE = (
     "The node made the next call immediately after a failed call. Wait 0.5 s before the next call, "
     "for example with rospy.sleep(0.5)."
@@ -91,6 +100,14 @@ HUNG_UP = (
 )
 NOT_GREETED = (
     'A customer came, but the node sent no greeting. Publish on the topic "greetings" when `found` is True.'
+)
+GREETED_LATE = (
+    "The greeting came at the end of the visit. Publish the greeting at the beginning of the visit, as soon "
+    "as `found` is True."
+)
+OTHER_IMAGE = (
+    "A mirror image is wrong, or it belongs to an invalid joint state. Copy the callback of exercise 15.5 "
+    "without a change."
 )
 GREETED_AGAIN = (
     "The node published more than one greeting in a visit. Publish only once, at the beginning of a visit."
@@ -145,13 +162,14 @@ def the_visits(context: CheckContext) -> None:
         mirrored = context.subscribe(f"{space}/{MIRRORED}", JOINTS)
         greetings.published()
         mirrored.published()
-        context.publish(f"{space}/{ARM}", JOINTS, [{"name": ["a"], "position": [0.1]}], every=0.05)
+        context.publish(f"{space}/{ARM}", JOINTS, [VALID, INVALID], every=0.025)
         context.serve(f"{space}/{RESET}", TRIGGER, till.answer)
         context.serve(f"{space}/{DETECT}", AWAIT, detector.answer)
         alone = Alone()
         context.serve(f"{other}/{DETECT}", AWAIT, alone.answer)
         _makes_the_calls(context, running, detector, mirrored)
-        _greets(context, greetings, till)
+        _greets(context, greetings, till, detector.calls)
+        _mirrors_only_valid_states(context, mirrored)
         context.fulfilled(GREETED)
         wait_until(lambda: alone.patiences or default.status is not None, NEXT_CALL)
         context.expect(
@@ -266,6 +284,18 @@ def _mirrors_in_visit(context: CheckContext, mirrored: Subscription, calls: list
     )
 
 
+def _mirrors_only_valid_states(context: CheckContext, mirrored: Subscription) -> None:
+    images = [(each.fields["name"], each.fields["position"]) for each in mirrored.arrivals]
+    wrong = [image for image in images if image != (VALID["name"], [-0.1])]
+    context.require(
+        "the node mirrors only valid joint states",
+        holds=not wrong,
+        expected="images with the name a and the position -0.1",
+        actual=f"an image with the names {wrong[0][0]} and the positions {wrong[0][1]}" if wrong else "",
+        hints=OTHER_IMAGE,
+    )
+
+
 def _pauses(context: CheckContext, calls: list[Call]) -> None:
     for (before, after), step in zip(itertools.pairwise(calls), STEPS, strict=False):
         pause = after.came - before.answered
@@ -285,9 +315,21 @@ def _pauses(context: CheckContext, calls: list[Call]) -> None:
                 actual=f"a pause of {pause:.1f} s",
                 hints=NO_PAUSE if pause < PAUSE else LONG_PAUSE,
             )
+    shortest = min(
+        after.came - before.answered
+        for (before, after), step in zip(itertools.pairwise(calls), STEPS, strict=False)
+        if step.name == "True"
+    )
+    context.require(
+        "during a visit, the node waits 0.2 s between two calls",
+        holds=shortest < AT_MOST,
+        expected="a pause of 0.2 s",
+        actual=f"pauses of at least {shortest:.2f} s",
+        hints=SLOW,
+    )
 
 
-def _greets(context: CheckContext, greetings: Subscription, till: Till) -> None:
+def _greets(context: CheckContext, greetings: Subscription, till: Till, calls: list[Call]) -> None:
     greetings.wait(2, 1.0)
     texts = [arrival.fields["data"] for arrival in greetings.arrivals]
     context.require(
@@ -296,6 +338,13 @@ def _greets(context: CheckContext, greetings: Subscription, till: Till) -> None:
         expected="2 greetings for 2 visits",
         actual=f"{len(texts)} greetings",
         hints=NOT_GREETED if len(texts) < 2 else GREETED_AGAIN,
+    )
+    context.require(
+        "the node greets a customer at the beginning of the visit",
+        holds=greetings.arrivals[0].at < calls[VISITS_END[0] - 1].came,
+        expected="a greeting before the last call of the visit",
+        actual="a greeting after the last call of the visit",
+        hints=GREETED_LATE,
     )
     context.expect(f'the greeting is "{GREETING}"', expected=[GREETING] * 2, actual=texts, hints=TEXT)
     context.require(

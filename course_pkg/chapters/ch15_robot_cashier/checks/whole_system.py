@@ -9,7 +9,9 @@ from course_pkg.chapters.ch15_robot_cashier.checks.launch_file import (
     FILE,
     READING,
     longest_delay,
+    passes_the_argument,
     reader_line,
+    starts_no_hardware,
     starts_programs,
     starts_the_hardware,
 )
@@ -88,7 +90,8 @@ RESTARTED = "roslaunch starts a killed node again"  # The text is the title of a
 def the_whole_system(context: CheckContext) -> None:
     """Let customers come and leave, let the printer and the camera fail, and kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
-    programs = package.start(reader_line("hardware:=false"), worded="roslaunch")
+    given = ["hardware:=false", f"wait:={WAIT}"]
+    programs = package.start(reader_line(*given), worded="roslaunch")
     everything = package.start(reader_line(), worded="roslaunch")
     space = f"/{context.random.word()}"
     printer = Printer()
@@ -99,12 +102,14 @@ def the_whole_system(context: CheckContext) -> None:
     counter = Counter(context, f"{space}/frames")
     states = [{"name": ["a"], "position": [0.1]}]
     arm = context.publish(f"{space}/joint_states", JOINTS, states, every=0.05)
-    line = f"roslaunch my_cashier cashier.launch hardware:=false wait:={WAIT}"
+    line = " ".join(["roslaunch my_cashier cashier.launch", *given])
     with package.start(f"env ROS_NAMESPACE={space} {line}", worded=line) as running:
         took = _comes_up(context, running, space)
         wait_until(lambda: programs.status is not None, READING)
         described = programs.stop().out
         starts_programs(context, described, SYSTEM)
+        starts_no_hardware(context, described, SYSTEM)
+        passes_the_argument(context, described, WAIT, given)
         wait_until(lambda: everything.status is not None, READING)
         starts_the_hardware(context, everything.stop().out, SYSTEM)
         greetings.published()

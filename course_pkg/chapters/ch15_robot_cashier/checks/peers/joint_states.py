@@ -10,10 +10,11 @@ from course_pkg.checking.plain_values import Fields
 
 JOINTS = "sensor_msgs/JointState"
 FIRST = 1000  # The first joint state has this stamp in s; each following stamp is 1 s later.
-COUNT = 24
+COUNT = 28
 EFFORT = 7  # The joint state with this index has an infinite effort.
 FEW_EFFORTS = 9  # The joint state with this index has fewer efforts than names.
 LARGE = 11  # In the joint state with this index, the sum of all positions is too large for a float.
+MANY = 26  # The joint state with this index has nine joints.
 EMPTY = 21  # The joint state with this index has no joints.
 
 
@@ -79,7 +80,11 @@ def joint_states(context: CheckContext) -> list[JointState]:
     states[14].velocity = states[14].velocity[:2]
     states[17].velocity = [*states[17].velocity[:-1], math.inf]
     states[19].velocity = [*states[19].velocity, 0.5]
+    states[22].position = [*states[22].position[:-1], -math.inf]
+    states[24].velocity = [math.nan, *states[24].velocity[1:]]
     # The joint states that are changed below are still valid.
+    states[MANY].name = [f"joint {number}" for number in range(9)]
+    states[MANY].position, states[MANY].velocity = (context.random.numbers(9, -3.0, 3.0) for _ in range(2))
     states[EFFORT].effort[0] = math.inf
     states[FEW_EFFORTS].effort = states[FEW_EFFORTS].effort[:2]
     states[LARGE].position[:2] = [1e308, 1e308]

@@ -44,8 +44,8 @@ class SeenCustomers:
             self._send()
         time.sleep(0.05)
 
-    def show_later(self, after: float, customer: bool) -> None:
-        """Wait for the time `after` (s), and then begin to publish the value `customer`."""
+    def show_later(self, after: float, customer: bool | None) -> None:
+        """Wait for the time `after` (s), and then begin to publish `customer`; for None, publish nothing."""
         timer = threading.Timer(after, self.show, [customer])
         timer.daemon = True
         timer.start()
