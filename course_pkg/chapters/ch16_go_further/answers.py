@@ -64,6 +64,8 @@ class Fetcher:
 # %% 16.1 wrong: fetches at most fifty things | hint: The robot stopped before it had fetched all things
 replace("range(goal.things)", "range(min(goal.things, 50))")
 replace("fetched=goal.things", "fetched=min(goal.things, 50)")
+# %% 16.1 wrong: stores the server in the class | hint: Store the server in the object (self.server), not in the class
+replace("self.server", "Fetcher.server", times=6)
 # %% 16.1 wrong: never checks for a cancellation | hint: Call is_preempt_requested() before the robot fetches
 replace("\n            if self.server … return", "")
 # %% 16.1 wrong: uses one count for all goals | hint: The result also counts the things of the previous goal
@@ -195,12 +197,16 @@ replace("return client.get_result().fetched", "result = client.get_result()\n   
 replace("things, seconds=0.1", "things")
 # %% 16.2 wrong: always uses a time limit of 4.5 s | hint: The time limit is wrong
 replace("(seconds)", "(4.5)")
+# %% 16.2 wrong: waits one second longer than the time limit | hint: The time limit is wrong
+replace("(seconds)", "(seconds + 1)")
 # %% 16.2 wrong: always uses a time limit of 0.3 s | hint: The time limit is wrong
 replace("(seconds)", "(0.3)")
 # %% 16.2 wrong: waits five seconds for a server | hint: The function waited too long for a server
 replace("(rospy.Duration(2)):", "(rospy.Duration(5)):")
 # %% 16.2 wrong: waits four seconds for a server | hint: The function waited too long for a server
 replace("(rospy.Duration(2)):", "(rospy.Duration(4)):")
+# %% 16.2 wrong: waits three seconds for a server | hint: The function waited too long for a server
+replace("(rospy.Duration(2)):", "(rospy.Duration(3)):")
 # %% 16.2 wrong: waits only 0.4 s for a server | hint: The server started 0.6 s … The server started
 replace("(rospy.Duration(2)):", "(rospy.Duration(0.4)):")
 # %% 16.2 wrong: returns the whole result | hint: The function returned the whole result
@@ -263,7 +269,7 @@ def speed_of(robot, default):
 # %% 16.3 wrong: does not check the value | hint: The value of the parameter was a string, not a number
 based_on("reads a parameter with a fixed name")
 replace('"~speed"', 'f"/{robot}/speed"')
-# %% 16.3 wrong: compares a string with 0 | hint: Python cannot compare a string or a list with a number
+# %% 16.3 wrong: compares a string with 0 | hint: Python cannot compare a string, a list or a dict with a number
 replace("if isinstance … return speed", "return speed if speed > 0 else default")
 # %% 16.3 wrong: accepts every number | hint: The value was negative
 based_on("compares a string with 0")
@@ -275,6 +281,12 @@ replace("speed > 0", "isinstance(speed, (int, float)) and speed is not True and 
 replace("if isinstance(speed, bool) or not isinstance(speed, (int, float)) or speed <= 0:", """if isinstance(speed, str):
         return default
     if not isinstance(speed, list) and speed <= 0:""")
+# %% 16.3 wrong: refuses only strings and lists | hint: The value was a dict, because /ROBOT/speed is a group
+replace("if isinstance(speed, bool) or not isinstance(speed, (int, float)) or speed <= 0:", """if isinstance(speed, (bool, str, list)):
+        return default
+    if not isinstance(speed, dict) and speed <= 0:""")
+# %% 16.3 wrong: compares a dict with 0 | hint: Python cannot compare a string, a list or a dict with a number
+replace("isinstance(speed, bool) or not isinstance(speed, (int, float))", "isinstance(speed, (bool, str, list))")
 # %% 16.3 wrong: refuses whole numbers | hint: The function did not return the int 2
 replace("(int, float)", "float")
 # %% 16.3 wrong: uses a fixed default value | hint: The parameter is not set
@@ -349,6 +361,10 @@ replace('"deliver"', '"delivery"')
 replace("import actionlib\n", "import action_lib\n")
 # %% 16.4 wrong: publishes without a pause | hint: The battery does not publish five values per second
 replace("\n        rate.sleep()", "")
+# %% 16.4 wrong: publishes eight values per second | hint: The battery does not publish five values per second
+replace("rospy.Rate(5)", "rospy.Rate(8)")
+# %% 16.4 wrong: always takes 0.2 s for each parcel | hint: The first parcel took less time than the goal requires
+replace("rospy.sleep(goal.seconds)", "rospy.sleep(0.2)")
 # %% 16.4 wrong: publishes the charge as a fraction | hint: Publish the charge in percent
 replace("self.charge = 100.0", "self.charge = 1.0")
 # %% 16.4 wrong: returns the messages "on" and "off" | hint: The field `message` is wrong
@@ -378,7 +394,9 @@ replace("        for ", "        if goal.seconds > 0.25:\n            self.serve
 replace("set_preempted(FetchResult(fetched=delivered))", "set_preempted()")
 # %% 16.4 wrong: does not check the capacity | hint: Compare goal.things with the parameter ~capacity
 replace("\n        if goal.things … return", "")
-# %% 16.4 wrong: uses a fixed capacity of 5 | hint: The delivery was not aborted, although it has more parcels than
+# %% 16.4 wrong: never carries more than five parcels | hint: The robot refused an allowed delivery
+replace('rospy.get_param("~capacity", 5)', 'min(rospy.get_param("~capacity", 5), 5)')
+# %% 16.4 wrong: uses a fixed capacity of 5 | hint: The robot refused an allowed delivery
 replace('rospy.get_param("~capacity", 5)', "5")
 # %% 16.4 wrong: checks the capacity in the loop | hint: Compare goal.things with the capacity before the loop
 replace("if goal.things … goal.things):", """for delivered in range(goal.things):

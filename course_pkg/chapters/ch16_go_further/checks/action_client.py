@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NoReturn
+
 from course_pkg.chapters.ch16_go_further.checks.scripted_robot import (
     ATTEMPTS,
     ENOUGH,
@@ -25,6 +27,8 @@ BRIEF = 0.2  # If the robot ignores the cancellation, the client gets this time 
 # rounds the time fails.
 SECONDS = 0.8
 SLACK = 3.0  # SLACK is the additional time in s that a call may take on a busy machine.
+# The fastest of `ATTEMPTS` cancellations may come up to this time in s after the time limit.
+LATE = 0.6
 # If the robot ignores the cancellation, the fastest of `ATTEMPTS` calls may take up to this time in s.
 STUBBORN = 3.9
 HOW_LONG = "The time limit is wrong. Use the argument `seconds`: wait_for_result(rospy.Duration(seconds))."
@@ -129,6 +133,16 @@ def _sends_the_goal(context: CheckContext, goal: FetchGoal, things: int) -> None
 
 
 def _too_late(context: CheckContext) -> None:
+    """Let the time limit pass; repeat the call if the cancellation comes late, because of a busy machine."""
+    for _ in range(ATTEMPTS):
+        robot = _exceeds_the_limit(context)
+        if robot.took < SECONDS + LATE:
+            return
+    _cancels_at_a_wrong_time(context, robot)
+
+
+def _exceeds_the_limit(context: CheckContext) -> Robot:
+    """Call the student's function with a robot that needs too long; return this robot."""
     name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
     robot = Robot(fetched, LONG)
     with serving(name, robot):
@@ -163,6 +177,7 @@ def _too_late(context: CheckContext) -> None:
                 ),
             ],
         )
+    return robot
 
 
 def _is_cancelled(context: CheckContext, robot: Robot) -> None:
@@ -183,12 +198,16 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
         ],
     )
     if not 0.6 * SECONDS < robot.took < SECONDS + SLACK:
-        context.fail(
-            "fetch_within() cancels a goal that does not end in time",
-            expected=f"a cancellation after {SECONDS:g} s",
-            actual=f"a cancellation after {robot.took:.1f} s",
-            hint=HOW_LONG,
-        )
+        _cancels_at_a_wrong_time(context, robot)
+
+
+def _cancels_at_a_wrong_time(context: CheckContext, robot: Robot) -> NoReturn:
+    context.fail(
+        "fetch_within() cancels a goal that does not end in time",
+        expected=f"a cancellation after {SECONDS:g} s",
+        actual=f"a cancellation after {robot.took:.1f} s",
+        hint=HOW_LONG,
+    )
 
 
 def _goes_on(context: CheckContext) -> None:

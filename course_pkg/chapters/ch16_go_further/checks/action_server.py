@@ -13,7 +13,14 @@ from course_pkg.chapters.ch16_go_further.checks.cancelled_goals import (
     cancels_a_goal,
     cancels_during_the_last_thing,
 )
-from course_pkg.chapters.ch16_go_further.checks.sent_goals import counts, ends_as, is_served, sends
+from course_pkg.chapters.ch16_go_further.checks.sent_goals import (
+    STATES,
+    counts,
+    ends_as,
+    is_over,
+    is_served,
+    sends,
+)
 from course_pkg.checking import ANYTHING, CheckContext, Its, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.subscription import Subscription
@@ -32,6 +39,7 @@ QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
 # If a goal takes too long, the check repeats this goal for up to this time in s, because a busy machine may
 # delay messages.
 BUSY = 2.0
+BRIEFLY = 4.0  # On a busy machine, a goal that needs 0.01 s may take up to this time in s.
 FIXED = (
     "The duration of the robot's work is wrong. Sleep for goal.seconds, because each goal contains its "
     "own time for one thing."
@@ -71,6 +79,7 @@ def executed_goal(context: CheckContext) -> None:
     cancels_a_goal(context, client, feedback)
     _fetches_nothing(context, client)
     cancels_during_the_last_thing(context, client)
+    _serves_two_names(context, client)
 
 
 def _wrong_number_fetched(things: int) -> Hints:
@@ -247,4 +256,22 @@ def _fetches_nothing(context: CheckContext, client: actionlib.SimpleActionClient
         expected=0,
         actual=client.get_result().fetched,
         hints=COUNTED_ON,
+    )
+
+
+def _serves_two_names(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
+    """Create a second object with another name; the first object must still execute a goal to its end."""
+    other = f"/{context.random.word()}"
+    context.run("begin", Its("Fetcher"), other, worded="Fetcher(name)").returned()
+    sends(context, client, FetchGoal(things=1, seconds=0.01))
+    context.require(
+        "after the start of a second Fetcher, the first Fetcher still executes a goal",
+        holds=is_over(client, BRIEFLY) and client.get_state() == GoalStatus.SUCCEEDED,
+        expected="SUCCEEDED",
+        actual=STATES.get(client.get_state(), "no end"),
+        hints=(
+            "The check created a second Fetcher with another name, and then the first Fetcher did not "
+            "execute a goal to its end. Store the server in the object (self.server), not in the class or in "
+            "a global variable."
+        ),
     )

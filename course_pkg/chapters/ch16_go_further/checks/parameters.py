@@ -25,6 +25,10 @@ LIST = (
     "The value of the parameter was a list. Check that the value is a number, because a parameter "
     "can have many types."
 )
+GROUP = (
+    "The value was a dict, because /ROBOT/speed is a group that contains the parameter /ROBOT/speed/max. "
+    "Check that the value is an int or a float."
+)
 TRUTH = (
     "The value was True, which is an int with the value 1 in Python. Check for bool separately, and "
     "return the default."
@@ -56,7 +60,7 @@ def speed_parameter(context: CheckContext) -> None:
         "speed_of() returns the default if the value is not a number",
         "speed_of() returns the default if the value is not above 0",
     )
-    cases: list[tuple[float | str | bool | list[float], str, float, str]] = [
+    cases: list[tuple[float | str | bool | list[float] | dict[str, float], str, float, str]] = [
         (first, "speed_of() returns the value of the parameter", first, NAME),
         (second, "speed_of() returns the new value after a change of the parameter", second, CHANGED),
         (
@@ -68,6 +72,7 @@ def speed_parameter(context: CheckContext) -> None:
         ("fast", no_number, default, TEXT),
         (str(second), no_number, default, TEXT),
         ([first, second], no_number, default, LIST),
+        ({"max": first}, no_number, default, GROUP),
         (True, no_number, default, TRUTH),
         (-first, not_positive, default, NEGATIVE),
         (0, not_positive, default, ZERO),
@@ -137,8 +142,8 @@ def _speed(context: CheckContext, robot: str, default: float) -> Result:
             (
                 matches("^TypeError"),
                 (
-                    "Python cannot compare a string or a list with a number. First check that the value "
-                    "is a number."
+                    "Python cannot compare a string, a list or a dict with a number. First check that the "
+                    "value is an int or a float."
                 ),
             ),
             (

@@ -20,7 +20,7 @@ from course_pkg.msg import FetchAction
 from course_pkg.ros.node.action_server import ActionServer
 
 LATE = 0.6  # LATE is the time in s between the call and the start of a late robot.
-LONGEST = 3.4  # If no robot runs, the fastest of `ATTEMPTS` calls may take up to this time in s.
+LONGEST = 2.8  # If no robot runs, the fastest of `ATTEMPTS` calls may take up to this time in s.
 NOBODY = (
     "No server started in time, so wait_for_server returned False. In this case, return None and do "
     "not send a goal."
