@@ -22,7 +22,7 @@ FILE = f"{PACKAGE}/src/patient_client.cpp"
 WAIT = 2.0  # WAIT is the time in s for which the client waits for the service.
 TRIES = 3  # The client makes at most this many calls.
 # Without a server, the client may wait for this additional time in s in the shortest of `ATTEMPTS` runs.
-SLACK, ATTEMPTS = 0.7, 3
+SLACK, ATTEMPTS = 0.5, 3
 PAUSE = 0.05  # PAUSE is the minimum time in s between two calls.
 TOLERANCE = 0.005  # TOLERANCE is the time in s by which the measured time can be too short.
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")

@@ -103,7 +103,13 @@ def _joint_state(context: CheckContext, number: int) -> JointState:
         nsecs=context.random.integer(1, 999_999_999),
         frame_id="arm",
         name=["base", "shoulder", "elbow"],
-        position=context.random.numbers(3, -3.0, 3.0, digits=12),
-        velocity=context.random.numbers(3, -3.0, 3.0, digits=12) if number % 5 else [],
+        position=_numbers_of_both_signs(context),
+        velocity=_numbers_of_both_signs(context) if number % 5 else [],
         effort=context.random.numbers(3, 1.0, 9.0) if number % 2 else [],
     )
+
+
+def _numbers_of_both_signs(context: CheckContext) -> list[float]:
+    """Return three numbers; if all were negative, -abs(value) and the value itself would be equal."""
+    negative, *positive = context.random.numbers(3, 0.1, 3.0, digits=12)
+    return context.random.shuffled([-negative, *positive])
