@@ -554,8 +554,8 @@ replace("sys.exit(str(error))", 'text = str(error)\n        sys.exit(text if isi
 replace("sys.exit(str(error))", "print(error)\n        return")
 # %% 15.4 wrong: waits without a limit | hint: The service does not exist, and the program waited for more than 3 s
 replace(", timeout=3)", ")")
-# %% 15.4 wrong: waits for four seconds | hint: The service does not exist, and the program waited for more than 3 s
-replace("timeout=3", "timeout=4")
+# %% 15.4 wrong: waits for five seconds | hint: The service does not exist, and the program waited for more than 3 s
+replace("timeout=3", "timeout=5")
 # %% 15.4 wrong: does not catch the timeout | hint: After its timeout, rospy.wait_for_service raises rospy.ROSException
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ServiceException")
 # %% 15.4 wrong: prints nothing if there is no service | hint: The service does not exist, and the program ended without a message
