@@ -24,6 +24,10 @@ replace('name_of_type = "course_pkg/geometry"', 'name_of_type = "/getGeometry"')
 replace('"/getGeometry"', '"/getGeometry/"')
 # %% 00.1 wrong: gives the service class instead of the name of the type | hint: Your answer is the Python
 replace('"course_pkg/geometry"', "geometry")
+# %% 00.1 wrong: stores the lines that a command printed | hint: Your answer is a list of lines
+replace('"/SERVER_NODE"', "!rosservice node /getGeometry")
+replace('"/getGeometry"', "!rosservice find course_pkg/geometry")
+replace('"course_pkg/geometry"', "!rosservice type /getGeometry")
 # %% 00.1 wrong: gives the service instead of the node | hint: Your answer is the name of a
 replace('"/SERVER_NODE"', '"/getGeometry"')
 # %% 00.1 wrong: gives the node instead of the service | hint: The command `rosservice list` shows

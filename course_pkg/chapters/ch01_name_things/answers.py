@@ -19,6 +19,10 @@ replace("__ns:=/{room} ", "")
 replace(" getGeometry:=measure", "")
 # %% 01.1 wrong: exchanges the old and the new name of the service | hint: with the old name first
 replace("getGeometry:=measure", "measure:=getGeometry")
+# %% 01.1 wrong: renames the type instead of the service | hint: not the name of its type
+replace("getGeometry:=", "geometry:=")
+# %% 01.1 wrong: writes the room twice | hint: The service's name contains the room twice
+replace(":=measure\"", ":={room}/measure\"")
 # %% 01.1 wrong: does not rename the node | hint: Change the name of the
 replace(" __name:=measurer", "")
 # %% 01.1 wrong: puts only the service into the room's namespace | hint: The node is not in the namespace of the room … The nodes of two rooms
@@ -90,6 +94,8 @@ replace("joint_states:=/{arm}/joint_states ", "")
 replace("joint_states:=/{arm}", "joint_states:={arm}")
 # %% 01.2 wrong: uses the arm as the namespace | hint: The name of the node has to be ARM_viewer
 replace("__ns:=/screen", "__ns:=/{arm}")
+# %% 01.2 wrong: gives each viewer the same name | hint: The name of the node has to be ARM_viewer
+replace("__name:={arm}_viewer", "__name:=left_viewer")
 # %% 01.2 wrong: uses no namespace | hint: The node is not in the namespace /screen.
 replace("__ns:=/screen ", "")
 # %% 01.2 wrong: does not rename the node | hint: The node still has its default name. Choose
@@ -100,6 +106,8 @@ replace(" mirrored_joints:={arm}/mirrored_joints", "")
 replace(" mirrored_joints:=", " mirrored_joint:=")
 # %% 01.2 wrong: misspells the name joint_states | hint: , so ROS ignores this remapping
 replace("joint_states:=", "joint_state:=")
+# %% 01.2 wrong: exchanges the old and the new names | hint: The two names in your remapping are in the wrong order
+replace("joint_states:=/{arm}/joint_states mirrored_joints:={arm}/mirrored_joints", "/{arm}/joint_states:=joint_states /screen/{arm}/mirrored_joints:=mirrored_joints")
 # %% 01.2 wrong: starts other programs instead of remapping the topics | hint: Your string contains more than one command
 def viewer_command(arm):
     return (
@@ -232,6 +240,11 @@ replace("name for name in names if rosnode.rosnode_ping(name, max_count=1)", "(n
 replace("rosnode.rosnode_ping", "not rosnode.rosnode_ping")
 # %% 01.4 wrong: searches for the topic without its slash | hint: Your list is empty, but
 replace("get(topic", 'get(topic.strip("/")')
+# %% 01.4 wrong: reads the list only once | hint: Call getSystemState() inside your function
+replace("\n    publishers, subscribers, services = rosgraph.Master(rospy.get_name()).getSystemState()", "")
+replace("def living", "publishers, subscribers, services = rosgraph.Master(rospy.get_name()).getSystemState()\n\n\ndef living")
+# %% 01.4 wrong: does not sort the names | hint: The names are right, but
+replace("sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))", "[name for name in names if rosnode.rosnode_ping(name, max_count=1)]")
 # %% 01.4 wrong: stops at the first dead node in alphabetical order | hint: Some running nodes are missing
 replace("return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))", '''living = []
     for name in sorted(names):

@@ -1,11 +1,17 @@
 """00.1: the names of the server's node, its service, and the type of this service."""
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Condition
 
 NODE, SERVICE, TYPE = (
     "Find the name of the node.",
     "Find the name of the service.",
     "Find the type of the service.",
+)
+LINES: tuple[Condition, str] = (
+    lambda actual: isinstance(actual, list),
+    "Your answer is a list of lines, such as the output of a `!` command. Write only the name as a string, "
+    "in quotes.",
 )
 
 
@@ -27,6 +33,7 @@ def read_the_graph(context: CheckContext) -> None:
             expected="/SERVER_NODE",
             actual=context.read("name_of_node"),
             hints=[
+                LINES,
                 (
                     "SERVER_NODE",
                     (
@@ -70,6 +77,7 @@ def read_the_graph(context: CheckContext) -> None:
             expected="/getGeometry",
             actual=context.read("name_of_service"),
             hints=[
+                LINES,
                 (
                     "getGeometry",
                     (
@@ -114,6 +122,7 @@ def read_the_graph(context: CheckContext) -> None:
             expected="course_pkg/geometry",
             actual=context.read("name_of_type"),
             hints=[
+                LINES,
                 (
                     matches("^geometry$"),
                     "The name of the package is missing. Write the type in the form package/type.",

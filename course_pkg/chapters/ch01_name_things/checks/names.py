@@ -55,8 +55,8 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
         servers, nodes = {}, set()
         for room in rooms:
             before = {service.uri for service in context.look().services}
-            servers[room], _ = _start(context, running, "measurer_command", room, "server")
-            node = _serves(context, servers[room], room, before)
+            servers[room], words = _start(context, running, "measurer_command", room, "server")
+            node = _serves(context, servers[room], words, room, before)
             if node in nodes:
                 context.fail(
                     "the service of each room measures boxes",
@@ -95,7 +95,7 @@ def a_viewer_for_each_arm(context: CheckContext) -> None:
     """Run the student's commands for two arms, and check the names of the nodes and of their topics."""
     with ExitStack() as running:
         for arm in _names(context, "Arm"):
-            before = {node.name for node in context.look().nodes}
+            before = {node.uri for node in context.look().nodes}
             viewer, words = _start(context, running, "viewer_command", arm, "simulator")
             _views(context, viewer, words, arm, before)
 
@@ -156,10 +156,11 @@ def _start(
     return running.enter_context(context.folder().start(*words, worded=str(command))), words
 
 
-def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> str:
+def _serves(context: CheckContext, server: Running, words: list[str], room: str, before: set[str]) -> str:
     """Assert that the room's service and node have the right names; return the name of the node.
 
-    `before` contains the addresses of the services that existed before the server was started.
+    `words` contains the words of the command that started the server. `before` contains the addresses of the
+    services that existed before the server was started.
     """
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
     deadline, service = time.monotonic() + START, None
@@ -173,7 +174,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
         found = new[0].name if new else ""
-        hint = _astray(room, found, new[0].node if new else "")
+        hint = _astray(room, found, new[0].node if new else "", words)
         context.fail(WHERE, expected=wanted, actual=found or "no new service", hint=hint)
     context.require(WHERE, holds=True)
     with context.goal(OWN_NODE):
@@ -204,10 +205,10 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
     return service.node
 
 
-def _astray(room: str, found: str, node: str) -> str:
+def _astray(room: str, found: str, node: str, words: list[str]) -> str:
     """Return the hint for a service with the wrong name `found`; the right name is /ROOM/measure.
 
-    `node` is the name of the service's node.
+    `node` is the name of the service's node, and `words` contains the words of the command.
     """
     if found.lower() == f"/{room}/measure".lower():
         return CAPITALS
@@ -226,6 +227,17 @@ def _astray(room: str, found: str, node: str) -> str:
         return (
             "The service still has its old name and namespace. Write each remapping as "
             "`old:=new`, without spaces."
+        )
+    if found == f"/{room}/{room}/measure":
+        return (
+            "The service's name contains the room twice, because `__ns` also puts a relative name into the "
+            "namespace. Remove the room from the new name of the service."
+        )
+    ignored = [old for old, new in _renamed(words) if "getGeometry" not in (old.strip("/"), new.strip("/"))]
+    if found == f"/{room}/getGeometry" and ignored:
+        return (
+            f"The program has no service `{ignored[0]}`, so ROS ignored your remapping. The old name has to "
+            "be the name of the program's service, not the name of its type."
         )
     if found == f"/{room}/getGeometry":
         return (
@@ -246,8 +258,8 @@ def _astray(room: str, found: str, node: str) -> str:
 def _views(context: CheckContext, viewer: Running, words: list[str], arm: str, before: set[str]) -> None:
     """Assert that the started node and its topics have the right names for the arm `arm`.
 
-    `words` contains the words of the command that started the node. `before` contains the names of the nodes
-    that existed before the command was run.
+    `words` contains the words of the command that started the node. `before` contains the addresses
+    of the nodes that existed before the command was run.
     """
     name, seen = _viewer(context, viewer, before)
     with context.goal(VIEWER):
@@ -279,7 +291,7 @@ def _views(context: CheckContext, viewer: Running, words: list[str], arm: str, b
             expected=[f"/{arm}/joint_states"],
             actual=[topic.name for topic in seen.topics if name in topic.subscribers],
             hints=[
-                *_misspelt("joint_states", words),
+                *_ignored("joint_states", words),
                 _in_small_letters([f"/{arm}/joint_states"]),
                 (
                     ("/screen/joint_states",),
@@ -306,7 +318,7 @@ def _views(context: CheckContext, viewer: Running, words: list[str], arm: str, b
             expected=[f"/screen/{arm}/mirrored_joints"],
             actual=[topic for topic in published if topic != "/rosout" and not topic.endswith("/pictures")],
             hints=[
-                *_misspelt("mirrored_joints", words),
+                *_ignored("mirrored_joints", words),
                 _in_small_letters([f"/screen/{arm}/mirrored_joints"]),
                 (
                     ("/screen/mirrored_joints",),
@@ -333,12 +345,24 @@ def _in_small_letters(expected: Value) -> tuple[Condition, str]:
     return (lambda actual: str(actual).lower() == str(expected).lower()), CAPITALS
 
 
-def _misspelt(topic: str, words: list[str]) -> list[tuple[tuple[str], str]]:
-    """Return a hint for a remapping in `words` whose old name is similar to the topic `topic`.
+def _renamed(words: list[str]) -> list[tuple[str, str]]:
+    """Return the old and the new name of each remapping in `words`; skip names such as `__ns`."""
+    pairs = [word.partition(":=") for word in words]
+    return [(old, new) for old, separator, new in pairs if separator and old and not old.startswith("__")]
+
+
+def _ignored(topic: str, words: list[str]) -> list[tuple[tuple[str], str]]:
+    """Return a hint for a remapping in `words` that does not rename the topic `topic`, as it should.
 
     The topic still has its old name in the namespace /screen. If there is no such remapping, return [].
     """
-    old = [word.partition(":=")[0].strip("/") for word in words if ":=" in word]
+    if any(new.strip("/") == topic and old not in TOPICS for old, new in _renamed(words)):
+        order = (
+            "The two names in your remapping are in the wrong order. Write the name in the program first, "
+            "then `:=`, and then the new name."
+        )
+        return [((f"/screen/{topic}",), order)]
+    old = [old.strip("/") for old, _ in _renamed(words)]
     alike = [name for name in difflib.get_close_matches(topic, old) if name not in TOPICS]
     if topic in old or not alike:
         return []
@@ -375,12 +399,17 @@ def _require_own_topics(context: CheckContext, viewer: Running, name: str, seen:
 
 
 def _viewer(context: CheckContext, viewer: Running, before: set[str]) -> tuple[str, Snapshot]:
-    """Wait for a new node with a subscription; return its name (or "") and the last snapshot of the graph."""
-    deadline = time.monotonic() + START
+    """Wait for a new node with a subscription; return its name (or "") and the last snapshot of the graph.
+
+    A new node may have the name of an earlier node, which the master then ends, so compare the addresses. The
+    first snapshot may still contain the topics of the earlier node, so wait for two equal results.
+    """
+    deadline, earlier = time.monotonic() + START, [""]
     while True:
         seen = context.look()
         subscribers = {node for topic in seen.topics for node in topic.subscribers}
-        new = sorted({node.name for node in seen.nodes} & subscribers - before)
-        if new or time.monotonic() > deadline or viewer.status is not None:
+        new = sorted({node.name for node in seen.nodes if node.uri not in before} & subscribers)
+        if new == earlier or time.monotonic() > deadline or viewer.status is not None:
             return (new[0] if new else ""), seen
+        earlier = new or [""]
         time.sleep(0.05)
