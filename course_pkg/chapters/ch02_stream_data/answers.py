@@ -136,6 +136,14 @@ replace("[-angle for angle in message.position]\n        image.velocity = [-spee
         for angle, speed in zip(message.position, message.velocity):
             image.position.append(-angle)
             image.velocity.append(-speed)""")
+# %% 02.2 wrong: iterates over names, positions and velocities at the same time | hint: and your callback lost the names
+replace("name=message.name", "name=[]")
+replace("[-angle for angle in message.position]\n        image.velocity = [-speed for speed in message.velocity]", """[]
+        image.velocity = []
+        for name, angle, speed in zip(message.name, message.position, message.velocity):
+            image.name.append(name)
+            image.position.append(-angle)
+            image.velocity.append(-speed)""")
 # %% 02.2 wrong: expects a velocity for each name | hint: that has no velocities. Change the signs
 replace("[-speed for speed in message.velocity]", "[-message.velocity[number] for number in range(len(message.name))]")
 # %% 02.2 wrong: reverses the lists | hint: Your callback reversed the order
@@ -381,6 +389,16 @@ replace("return [ … ]", """first = rospy.Subscriber(angles, Float64, on_angle,
     return [first, rospy.Subscriber(orders, UInt32, lambda message: prepare(message.data))]""")
 # %% 02.4 wrong: pauses after each drawing | hint: draw() was not called often enough
 replace("lambda message: draw(message.data)", "lambda message: (draw(message.data), time.sleep(0.4))")
+# %% 02.4 wrong: draws at most four angles per second | hint: In a second series of angles
+replace("(angles, draw, orders, prepare):", """(angles, draw, orders, prepare):
+    last = [0.0]
+
+    def on_angle(message):
+        if time.monotonic() - last[0] >= 0.25:
+            last[0] = time.monotonic()
+            draw(message.data)
+""")
+replace("lambda message: draw(message.data)", "on_angle")
 # %% 02.4 wrong: ignores the angle 0 | hint: always draw the newest angle, even if
 replace("draw(message.data)", "message.data and draw(message.data)")
 # %% 02.4 wrong: ignores the order 0 | hint: An order has the number 0, and it was not prepared
@@ -572,6 +590,12 @@ replace("\n        if value != self.value:\n            self.value = value\n    
 # %% 02.3 wrong: ignores changes of at most 0.001 | hint: A changed value was not published
 based_on("treats the last value 0 as missing")
 replace("self.last and self.last == value", "self.last is not None and abs(value - self.last) <= 0.001")
+# %% 02.3 wrong: stores the last value in a global variable | hint: not in the class or in a global variable
+based_on("treats the last value 0 as missing")
+replace("        self.last = None\n", "")
+replace("class Notice:\n", "last = None\n\n\nclass Notice:\n")
+replace("if self.last and self.last == value", "global last\n        if last == value")
+replace("self.last = value", "last = value")
 # %% 02.3 wrong: shares the last value among all objects | hint: No value arrived. Create the
 based_on("treats the last value 0 as missing")
 replace("        self.last = None\n", "")

@@ -213,6 +213,11 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
         expected=message["name"],
         actual=image["name"],
         hints=[
+            (
+                lambda actual: not actual and not message["velocity"],
+                "The received message has positions, but no velocities, and your callback lost the names. "
+                "Copy the names, and change the signs in each list separately.",
+            ),
             ((), "The names of the joints are missing. Copy the names from the received message."),
             (
                 tuple(reversed(message["name"])),

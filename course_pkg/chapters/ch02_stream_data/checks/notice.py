@@ -136,7 +136,7 @@ def _receives(context: CheckContext, subscription: Subscription, values: list[fl
             (
                 [],
                 "No value arrived. Create the publisher with `latch=True`, and store the last "
-                "value in `self`, not in the class.",
+                "value in `self`, not in the class or in a global variable.",
             ),
             (
                 lambda actual: len(actual) > len(values) + 2,

@@ -9,15 +9,17 @@ from course_pkg.chapters.ch02_stream_data.checks.subscribers import running_subs
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
+from course_pkg.waiting import at_this_load, wait_until
 
 # A call of draw() takes `DRAWING` s, and a call of prepare() takes `PREPARING` s.
 DRAWING, PREPARING = 0.25, 0.02
 OLDEST = 0.5  # OLDEST is the maximum age in s of an angle when a drawing begins.
 ANGLES, ORDERS = 60, 20
+SOME = 8  # A short series contains this many angles before the last angle.
 
 
 class Work:
-    """A replacement for draw() or prepare() that only sleeps; `pause` is the duration in s.
+    """A replacement for draw() or prepare() that only sleeps for `pause` s.
 
     The object records the beginning of each call, and the maximum number of simultaneous calls.
     """
@@ -25,7 +27,7 @@ class Work:
     def __init__(self, pause: float) -> None:
         self.done: list[tuple[float, Value]] = []
         self.at_once = 0
-        self._pause = pause
+        self.pause = pause
         self._busy = 0
         self._lock = threading.Lock()
 
@@ -36,7 +38,7 @@ class Work:
             self._busy += 1
             self.at_once = max(self.at_once, self._busy)
             self.done.append((time.monotonic(), value))
-        time.sleep(self._pause)
+        time.sleep(self.pause)
         with self._lock:
             self._busy -= 1
 
@@ -85,10 +87,29 @@ def two_queues(context: CheckContext) -> None:
         # Wait until draw() and prepare() have handled the last values.
         time.sleep(max(2 * DRAWING, ORDERS * PREPARING))
         drawn, prepared = [*draw.done], [value for _, value in prepare.done]
+        draw.pause = 0.0
+        last = context.random.number(1000.0, 2000.0)
+        _publish_again(context, topics[0], [*context.random.numbers(SOME, 1.0, 900.0), last], draw)
     with context.goal(NEWEST):
         _drawn(context, draw.at_once, drawn, dict(zip(angles, arm.sent, strict=True)))
+        context.expect(
+            "the last angle is drawn",
+            expected=last,
+            actual=draw.done[-1][1],
+            hints=(
+                "In a second series of angles, draw() returned immediately, but the last angle was not "
+                "drawn. Do not skip an angle because draw() was called a short time before."
+            ),
+        )
     with context.goal(ALL_ORDERS):
         _prepared(context, prepare.at_once, prepared, numbers)
+
+
+def _publish_again(context: CheckContext, topic: str, angles: list[float], draw: Work) -> None:
+    """Publish more angles, and wait until the last angle is drawn, at most 1 s."""
+    values = [{"data": angle} for angle in angles]
+    context.publish(topic, "std_msgs/Float64", values, every=0.02, once=True).finish(10.0)
+    wait_until(lambda: [value for _, value in draw.done][-1:] == angles[-1:], at_this_load(1.0))
 
 
 def _drawn(
