@@ -175,6 +175,8 @@ replace("def handle_count(self, request):", "def handle_count(self, request):\n 
 replace("(self.count)", "(before)")
 # %% 05.2 wrong: does not reset the count | hint: The count continued after the reset.
 replace("self.count = 0\n        return EmptyResponse()", "return EmptyResponse()")
+# %% 05.2 wrong: resets another object | hint: use the same Counter object for both services
+replace("counter.handle_reset", "Counter().handle_reset")
 # %% 05.2 wrong: counts in a local variable | hint: The message is 1 again. Store
 replace("self.count += 1", "count = 0\n        count += 1")
 replace("str(self.count)", "str(count)")
@@ -366,6 +368,8 @@ replace("success=moved", "success=True")
 # %% 05.4 wrong: changes the position before it compares | hint: The switch moved, but success is
 replace("\n        moved = request.data != self.on", "")
 replace("moved", "request.data != self.on")
+# %% 05.4 wrong: counts only moves to on | hint: A move to off counts, too
+replace("moved = request.data != self.on", "moved = request.data and not self.on")
 # %% 05.4 wrong: returns the old position | hint: Change the position first
 replace("(self, request):", '(self, request):\n        message = "on" if self.on else "off"')
 replace('message="on" if self.on else "off"', "message=message")
@@ -381,6 +385,12 @@ replace("self.on = request.data", "self.on = not self.on")
 replace("False", "True")
 # %% 05.4 wrong: is None at the start | hint: A new switch was not
 replace("False", "None")
+# %% 05.4 wrong: stores no position before the first move | hint: store the value that your handler stores for off
+replace("self.on = False", "self.position = None")
+replace("moved = request.data != self.on\n        self.on = request.data", """wanted = "on" if request.data else "off"
+        moved = wanted != self.position
+        self.position = wanted""")
+replace('"on" if self.on else "off"', "wanted")
 # %% 05.4 wrong: returns a sentence as the message | hint: The message contains more than "on"
 replace('"on" if self.on else "off"', '"It is on" if self.on else "It is off"')
 # %% 05.4 wrong: uses one value for all switches | hint: A new Switch() was on

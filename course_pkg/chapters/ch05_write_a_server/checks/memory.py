@@ -63,7 +63,7 @@ NOT_OFF: list[tuple[Condition, str]] = [
         lambda actual: actual["message"] == "on",
         "A call with data=False switched a new switch on. The field `data` is the wanted position.",
     ),
-    (ANYTHING, "A new switch was not off. Set the position of the switch to False in `__init__`."),
+    (ANYTHING, "A new switch was not off. In `__init__`, store the value that your handler stores for off."),
 ]
 SHARES = (
     "A new Switch() was on, because it shares a variable with the switch at /switch. Store the "
@@ -161,7 +161,8 @@ def a_counter_that_resets(context: CheckContext) -> None:
                     ),
                     (
                         _follows(before),
-                        "The count continued after the reset. In handle_reset, set self.count to zero.",
+                        "The count continued after the reset. In handle_reset, set self.count to zero, and "
+                        "use the same Counter object for both services.",
                     ),
                     (
                         _is_two(number),
@@ -278,7 +279,10 @@ def a_switch_that_tells(context: CheckContext) -> None:
                     (
                         False,
                         "The switch moved, but success is False. Compare `data` with the "
-                        "position before you change the position.",
+                        "position before you change the position."
+                        if data
+                        else "The switch moved from on to off, but success is False. A move to off counts, "
+                        "too: set success to True if the old position differs from `data`.",
                     ),
                 ],
             )
