@@ -365,6 +365,10 @@ replace("for service in services:\n        try:", "try:\n        for service in 
 replace("    except rospy.ServiceException:\n            continue\n", "except rospy.ServiceException:\n    ")
 # %% 06.4 wrong: gives up after a frozen server | hint: The first service does not
 replace("if answers:\n            return answers[0]", "if asker.is_alive():\n            return None\n        if answers:\n            return answers[0]")
+# %% 06.4 wrong: has one time limit for all services together | hint: so calculate the time limit again for each call
+replace("    for service in services:", "    end = time.monotonic() + 1\n    for service in services:")
+replace("timeout=1", "timeout=max(0, end - time.monotonic())")
+replace("def first_answer", "import time\n\n\ndef first_answer")
 # %% 06.4 wrong: returns the last response | hint: The function returned the volume
 replace("    for service in services:", "    found = None\n    for service in services:")
 replace("return answers[0]\n    return None", "found = answers[0]\n    return found")
@@ -586,6 +590,8 @@ replace("    print(\"fits\"", "    rospy.ServiceProxy(\"getGeometry\", geometry)
 replace("rospy.wait_for_service", "rospy.wait_for_servise")
 # %% 06.6 wrong: compares with < instead of <= | hint: The volume is equal to LIMIT,
 replace("volume <= limit", "volume < limit", times=2)
+# %% 06.6 wrong: rounds the volume before it compares | hint: do not round the volume before the comparison
+replace("volume <= limit", "round(volume, 2) <= limit", times=2)
 # %% 06.6 wrong: always exits with status 0 | hint: The volume in the response is larger
 replace("return 0 if volume <= limit else 1", "return 0")
 # %% 06.6 wrong: ignores a fifth argument | hint: The program ignored the fifth argument

@@ -274,6 +274,8 @@ replace('answer = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)', '''if 
         return "moved"''')
 replace('if stands ! … was there"', 'return "was there" if stands == ("open" if to_open else "closed") else "failed"')
 
+# %% 08.3 wrong: trusts success=True | hint: compare the position with `to_open`, even if success
+replace('if stands != ("open" if to_open else "closed"):', 'if stands != ("open" if to_open else "closed") and not answer.success:')
 # %% 08.3 wrong: reads the position from the message of set | hint: The switch is in the wanted
 def move(switch, to_open):
     words = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).message

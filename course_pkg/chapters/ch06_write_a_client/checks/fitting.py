@@ -152,7 +152,7 @@ def _cases(context: CheckContext) -> list[Case]:
             "fits",
             hint=(
                 'The volume is equal to LIMIT, and "at most LIMIT" includes LIMIT itself. '
-                'Print "fits", and end with exit status 0.'
+                "Compare with <=, and do not round the volume before the comparison."
             ),
             remapped=True,
         ),

@@ -10,6 +10,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.scripted_server import Act, Script
 from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Result
+from course_pkg.waiting import at_this_load, wait_until
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "slow", "frozen", "next", "nowhere")
 # Three missing services may delay the result by at most this time in s. A wait of 1 s takes 1.2 s, because
@@ -157,10 +158,15 @@ def ask_the_next_one(context: CheckContext) -> None:
         near=1e-9,
         hints=[
             (
+                lambda actual: actual is None and wait_until(lambda: bool(next_at), at_this_load(0.5)),
+                "The second service was called, but the function did not wait for its response. Each service "
+                "has one second of its own, so calculate the time limit again for each call.",
+            ),
+            (
                 None,
                 "The first service does not respond, but the second service can respond. Call the "
                 "second service after one second.",
-            )
+            ),
         ],
     )
     took = frozen.took

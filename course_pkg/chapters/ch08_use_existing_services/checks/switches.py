@@ -86,7 +86,8 @@ CASES = (
             (
                 "moved",
                 "The switch responded with success=True, but the switch is in the wrong "
-                "position. Call `report` after `set`, and use the message of `report`.",
+                "position. Call `report` after `set`, and compare the position with `to_open`, even if "
+                "success is True.",
             ),
         ],
     ),
