@@ -228,6 +228,13 @@ FROM_CMAKE: tuple[Row, ...] = (
         "${{${{PROJECT_NAME}}_EXPORTED_TARGETS}}.",
     ),
     (
+        r'The dependency target "(?P<name>\w+_EXPORTED_TARGETS)" of target',
+        "",
+        "There is no target {name}: this is only the name of a variable.",
+        "Write ${{ }} around the whole name of the variable to get its value, as in "
+        "${{${{PROJECT_NAME}}_EXPORTED_TARGETS}}.",
+    ),
+    (
         r"Parse error\.\s+Function missing ending",
         "",
         "This line opens a parenthesis that is never closed.",

@@ -33,8 +33,8 @@ FROM_BUILD: tuple[Row, ...] = (
         r"must not contain the following tags: (?P<tags>[^\n]+)",
         "package.xml",
         "A package.xml of format {format} cannot have the tag {tags}.",
-        "Use the tags buildtool_depend, build_depend, exec_depend or depend (formats 2 and 3), "
-        "and check the spelling.",
+        "In formats 2 and 3, use the tags buildtool_depend, build_depend, depend, or exec_depend in place of "
+        "run_depend, and check the spelling.",
     ),
     (
         r'must contain (?:exactly|at least) one "(?P<tag>\w+)" tag',

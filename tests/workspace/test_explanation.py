@@ -50,6 +50,17 @@ SLIPS = {
         f"{LIST_FILE}, line 10",
         "The file src/none.cpp does not exist",
     ),
+    "the name of a variable instead of its value": (
+        spoilt(
+            C,
+            (
+                PACKAGE,
+                PACKAGE + "add_custom_target(a)\nadd_dependencies(a ${PROJECT_NAME}_EXPORTED_TARGETS)\n",
+            ),
+        ),
+        f"{LIST_FILE}, line 11",
+        "this is only the name of a variable",
+    ),
     "linked before add_executable": (
         spoilt(C, (PACKAGE, PACKAGE + "target_link_libraries(box ros)\n")),
         f"{LIST_FILE}, line 10",

@@ -28,6 +28,10 @@ replace("\n  <exec_depend>message_runtime</exec_depend>", "")
 # %% 07.1 wrong: omits rospy | hint: , but package.xml has no tag
 based_on("uses format 3 with depend")
 replace("\n  <depend>rospy</depend>", "")
+# %% 07.1 wrong: uses the tag of format 1 | hint: in place of run_depend
+replace("exec_depend>message_runtime</exec_depend", "run_depend>message_runtime</run_depend")
+replace("exec_depend>rospy</exec_depend", "run_depend>rospy</run_depend")
+replace("exec_depend>std_msgs</exec_depend", "run_depend>std_msgs</run_depend")
 # %% 07.1 wrong: names message_runtime only in a build_depend | hint: . Also add a line
 replace("<exec_depend>message_runtime</exec_depend>", "<build_depend>message_runtime</build_depend>")
 # %% 07.1 wrong: writes a condition that is false in ROS 1 | hint: has the attribute `condition`
@@ -123,6 +127,8 @@ replace("${PROJECT_NAME}_programs", "programs", times=2)
 replace("\nadd_dep", "\n# add_dep")
 # %% 07.3 wrong: writes only one pair of braces | hint: Write both pairs of ${ }
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS}", "${PROJECT_NAME_EXPORTED_TARGETS}")
+# %% 07.3 wrong: writes the name of the variable instead of its value | hint: Write ${ } around the whole name
+replace("${${PROJECT_NAME}_EXPORTED_TARGETS}", "${PROJECT_NAME}_EXPORTED_TARGETS")
 # %% 07.3 wrong: names only the targets of other packages | hint: Your add_dependencies contains only targets of other
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ", "")
 # %% 07.3 wrong: writes add_dependencies above generate_messages | hint: this package's targets is still empty
@@ -376,9 +382,14 @@ replace("catkin_install_python( … BIN_DESTINATION}\n)", "file(COPY scripts/ser
 replace(" scripts/client.py", "")
 # %% 07.6 wrong: writes a wrong destination | hint: rosrun does not search the
 replace("${CATKIN_PACKAGE_BIN_DESTINATION}", "bin")
-# %% 07.6 wrong: installs the client as a file, not as a program | hint: because install(FILES …) removes the permission
+# %% 07.6 wrong: installs the client as a file, not as a program | hint: removes the permission to execute a file
 based_on("uses two rules, one of them from CMake")
 replace("install(PROGRAMS scripts/client.py", "install(FILES scripts/client.py")
+# %% 07.6 wrong: installs the folder without its permissions | hint: removes the permission to execute a file
+based_on("uses two rules, one of them from CMake")
+replace("catkin_install_python … DESTINATION lib", "install(DIRECTORY scripts/ DESTINATION lib")
+# %% 07.6 wrong: installs the scripts in the folder share | hint: The script is installed in the folder share
+replace("${CATKIN_PACKAGE_BIN_DESTINATION}", "${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts")
 # %% 07.6 wrong: installs a client that its owner cannot execute | hint: do not contain OWNER_EXECUTE
 based_on("uses two rules, one of them from CMake")
 replace("${PROJECT_NAME})", "${PROJECT_NAME} PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ GROUP_EXECUTE)")
@@ -463,6 +474,8 @@ $ rosservice call getGeometry 1 2 3   # area 2, volume 6
 """
 # %% 07.7 wrong: omits the title | hint: The title is missing. Write
 replace("# my_geometry\n", "my_geometry\n")
+# %% 07.7 wrong: writes the title without a space | hint: A space is missing after the character #
+replace("# my_geometry\n", "#my_geometry\n")
 # %% 07.7 wrong: omits the code block | hint: Write a line ``` above
 replace("```bash\n", "", times=2)
 replace("```\n", "", times=2)
@@ -490,6 +503,8 @@ replace("rosrun my_geometry server.py", "rosrun server.py")
 replace("/getGeometry 1.2 5.2 8.9", "/getGeometry 1.2 5.2")
 # %% 07.7 wrong: omits the call | hint: The call of the service is missing.
 replace("rosservice call /getGeometry 1.2 5.2 8.9\nrosrun my_geometry client.py 1.2 5.2 8.9\n", "")
+# %% 07.7 wrong: writes the call in a sentence | hint: is in the text, not in a code block
+replace("source devel/setup.bash\nrosservice call /getGeometry 1.2 5.2 8.9\nrosrun my_geometry client.py 1.2 5.2 8.9\n```", "source devel/setup.bash\n```\n\nThen call the service: `rosservice call /getGeometry 1.2 5.2 8.9`.")
 # %% 07.7 right: uses the folder install, and calls with the client
 replace("catkin_make", "catkin_make install")
 replace("source devel/setup.bash", "source install/setup.bash", times=2)
@@ -616,6 +631,10 @@ replace("for _ in range", "for count in range")
 replace("random.randint(0, 1)", "int(count % 4 != 2)")
 # %% 07.10 wrong: prints only the state | hint: The output is wrong. For
 replace('f"{number}: {name_state(number).state}"', "name_state(number).state")
+# %% 07.10 wrong: prints the expected state instead of the response | hint: the check's server returned other states
+replace("print(f\"{number}: {name_state(number).state}\")", "name_state(number)\n        print(f\"{number}: {'ON' if number else 'OFF'}\")")
+# %% 07.10 wrong: prints a space before the colon | hint: The client prints a space before the colon
+replace('f"{number}: {name_state(number).state}"', 'number, ":", name_state(number).state')
 # %% 07.10 wrong: calls another service | hint: The client does not end. Check
 replace('("/onOff", timeout=5)', '("/on_off")')
 # %% 07.10 wrong: exits with an error status | hint: The exit status is not

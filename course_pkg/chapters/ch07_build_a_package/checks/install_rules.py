@@ -103,9 +103,15 @@ def _why_not_there(text: str, script: str, places: list[str], *, there: bool) ->
             "contain OWNER_EXECUTE. Use catkin_install_python, which sets the right permissions."
         )
     if there:
+        rule = "install(DIRECTORY …)" if re.search(r"install\s*\(\s*DIRECTORY", text) else "install(FILES …)"
         return (
-            "The installed file is not executable, because install(FILES …) removes the permission to "
-            "execute a file. Use catkin_install_python for scripts."
+            f"The installed file is not executable, because {rule} removes the permission to execute a file. "
+            "Use catkin_install_python for scripts."
+        )
+    if any(place.startswith("share/") for place in places):
+        return (
+            f"The script is installed in the folder share, but the exercise asks for {PLACE}. Write exactly "
+            "${CATKIN_PACKAGE_BIN_DESTINATION} after DESTINATION."
         )
     if places:
         return (

@@ -171,12 +171,9 @@ def the_on_off_client(context: CheckContext) -> None:
     context.require(
         "the client prints NUMBER: STATE for each call",
         holds=printed == wanted,
-        expected="one line for each call, such as 1: ON",
+        expected=f"one line for each call; the first line is {wanted[0]}",
         actual=" / ".join(done.out.splitlines()[:3]) or "no output",
-        hints=(
-            "The output is wrong. For each call, print the number that you sent, a colon, a space, "
-            "and the state in the response."
-        ),
+        hints=_why_not_printed(sent, printed, wanted),
     )
     context.require(
         "the client ends with exit status 0",
@@ -184,6 +181,24 @@ def the_on_off_client(context: CheckContext) -> None:
         expected="exit status 0",
         actual=_ending(done),
         hints="The exit status is not 0. After the last call, do not call sys.exit.",
+    )
+
+
+def _why_not_printed(sent: list[int], printed: list[str], wanted: list[str]) -> str:
+    """Return the hint for the lines `printed`, which differ from the lines `wanted`."""
+    if printed == [f"{number}: {'ON' if number else 'OFF'}" for number in sent]:
+        return (
+            "The client prints ON and OFF, but the check's server returned other states. Print the state in "
+            "the response."
+        )
+    if [re.sub(r"\s+:", ":", line) for line in printed] == wanted:
+        return (
+            "The client prints a space before the colon. Use an f-string, because print() writes a space "
+            "between two arguments."
+        )
+    return (
+        "The output is wrong. For each call, print the number that you sent, a colon, a space, and the state "
+        "in the response."
     )
 
 

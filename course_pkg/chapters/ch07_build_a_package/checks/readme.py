@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY
-from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.workspace.fault import without_comments
 
 FILE = MY_GEOMETRY.path("README.md")
@@ -61,7 +61,14 @@ def the_readme(context: CheckContext) -> None:
         holds=bool(re.match(r"# \S", first)),
         expected="a line with #, a space and a title",
         actual=first,
-        hints="The title is missing. Write a line that begins with # and a space.",
+        hints=[
+            (
+                matches(r"^#+[^#\s]"),
+                "A space is missing after the character # in the first line. Without this space, the line is "
+                "not a title.",
+            ),
+            (ANYTHING, "The title is missing. Write a line that begins with # and a space."),
+        ],
     )
     shown = without_comments(text)
     lines = [line.strip().removeprefix("$ ") for block in BLOCK.findall(shown) for line in block.splitlines()]
@@ -85,7 +92,7 @@ def the_readme(context: CheckContext) -> None:
         ],
     )
     places = [_place(context, commands, *command) for command in COMMANDS]
-    places.append(_place_of_call(context, commands))
+    places.append(_place_of_call(context, commands, shown))
     context.require(
         "the commands are in the right order",
         holds=places == sorted(places),
@@ -111,7 +118,11 @@ def _place(context: CheckContext, commands: str, pattern: str, name: str, hint: 
     return found.start() if found else 0
 
 
-def _place_of_call(context: CheckContext, commands: str) -> int:
+def _place_of_call(context: CheckContext, commands: str, shown: str) -> int:
+    """Assert that the commands call the service; return the position of the call.
+
+    `shown` is the text of the README, without comments.
+    """
     found = (CALL if "rosservice call" in commands else CLIENT).search(commands)
     others = [line for line in commands.splitlines() if "rosservice" in line]
     context.require(
@@ -122,6 +133,9 @@ def _place_of_call(context: CheckContext, commands: str) -> int:
         hints="A part of the command that calls the service is missing. Write the name /getGeometry, and "
         "one number for each of the three sides."
         if others
+        else "The command that calls the service is in the text, not in a code block. Write this command on "
+        "a separate line between two lines with ```."
+        if CALL.search(shown)
         else "The call of the service is missing. Write the rosservice command from step 8.",
     )
     names = re.findall(r"(\w+):", found[0]) if found else []
