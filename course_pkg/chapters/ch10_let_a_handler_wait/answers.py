@@ -96,26 +96,12 @@ replace("return messages", "return list(messages)")
 replace("thread.join()", "thread.join(0.2)")
 # %% 10.1 wrong: joins each thread with a time limit of 1 s | hint: call join() of every thread without
 replace("thread.join()", "thread.join(timeout=1)")
-# %% 10.1 wrong: returns only the messages of successful responses | hint: The messages of the responses with success=False are missing
-def call_at_once(name, count):
-    messages = []
-
-    def call():
-        response = rospy.ServiceProxy(name, Trigger)()
-        if response.success:
-            messages.append(response.message)
-
-    threads = [threading.Thread(target=call) for _ in range(count)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    return messages
-
-# %% 10.1 wrong: joins each thread with a time limit of 2 s | hint: call join() of every thread without
+# %% 10.1 wrong: joins a thread with a time limit of 2 s | hint: call join() of every thread without
 replace("thread.join()", "thread.join(timeout=2)")
 # %% 10.1 wrong: creates the list as a default argument | hint: The list also contains messages of an earlier call
 replace("count):\n    messages = []\n", "count, messages=[]):\n")
+# %% 10.1 wrong: ignores the messages of responses with success=False | hint: The message of a response with success=False is missing
+replace("messages.append(proxy().message)", "response = proxy()\n        if response.success:\n            messages.append(response.message)")
 # %% 10.1 wrong: returns a dict of the messages | hint: The list does not contain the right messages
 replace("return messages", "return {message: True for message in messages}")
 # %% 10.1 wrong: omits the return line | hint: without a return statement
@@ -216,8 +202,6 @@ replace("watch.next(request.after)", "watch.next()", times=2)
 replace("timeout=request.patience", "timeout=5")
 # %% 10.2 wrong: treats the field `patience` as milliseconds | hint: The handler returned too early
 replace("timeout=request.patience", "timeout=request.patience / 1000")
-# %% 10.2 wrong: rounds the field `patience` down | hint: The handler waited only for the whole seconds of request.patience
-replace("timeout=request.patience", "timeout=int(request.patience)")
 # %% 10.2 wrong: passes a value to wait_for instead of a function | hint: The argument of `wait_for` has to be a function, because `wait_for` calls this function
 replace("watch.changed.wait_for(lambda: ", "customer = watch.changed.wait_for(")
 replace("\n        customer = watch.next(request.after)", "")
@@ -236,6 +220,20 @@ replace("watch.changed.wait_for … customer.arrived", """customer = watch.chang
 # %% 10.2 wrong: omits the time of arrival | hint: The response does not contain the time
 based_on("reads the fields of None if there is no customer")
 replace("number, customer.arrived", "number if customer else 0, rospy.Time()")
+# %% 10.2 wrong: rounds the field `patience` down to whole seconds | hint: and do not round this number
+replace("request.patience", "int(request.patience)")
+# %% 10.2 wrong: misses a customer who comes between the check and the wait | hint: so the handler missed the notification
+def handle_detect(watch, request):
+    end = time.monotonic() + request.patience
+    customer = watch.next(request.after)
+    while customer is None and time.monotonic() < end:
+        with watch.changed:
+            watch.changed.wait(max(end - time.monotonic(), 0))
+        customer = watch.next(request.after)
+    if customer is None:
+        return DetectCustomerResponse(detected=False)
+    return DetectCustomerResponse(detected=True, number=customer.number, arrived=customer.arrived)
+
 # %% 10.2 wrong: lets only one caller wait at a time | hint: One client had to wait for another client
 replace("def", "door = threading.Lock()\ndef")
 replace("with watch.changed:", "with door, watch.changed:")
@@ -365,29 +363,9 @@ based_on("uses a loop with a deadline, and notify")
 replace("notify", "notify_all")
 replace("\n        end = time.monotonic() + self.limit", "")
 replace("left = end … wait(left)", 'if not self.changed.wait(self.limit):\n                    return False, "empty"')
-# %% 10.3 wrong: begins the time limit again after each wake-up | hint: The handler of /take waits longer than the time limit
-class Basket:
-    def __init__(self, limit):
-        self.limit = limit
-        self.items = 0
-        self.changed = threading.Condition()
-
-    def handle_put(self, request):
-        with self.changed:
-            self.items += 1
-            self.changed.notify()
-            return TriggerResponse(success=True, message=str(self.items))
-
-    def handle_take(self, request):
-        with self.changed:
-            while self.items == 0:
-                if not self.changed.wait(self.limit):
-                    return TriggerResponse(success=False, message="empty")
-            self.items -= 1
-            return TriggerResponse(success=True, message=str(self.items))
-
-
-basket = Basket(5)
+# %% 10.3 wrong: waits for the whole limit after each wake-up, and uses notify | hint: The handler of /take waits longer than the time limit
+based_on("waits for the whole limit after each wake-up")
+replace("self.changed.notify_all()", "self.changed.notify()")
 # %% 10.3 wrong: sleeps while it holds the lock | hint: /put did not respond while a call of /take was waiting
 based_on("uses a loop with a deadline, and notify")
 replace("self.changed.wait(left)", "time.sleep(0.05)")
@@ -481,6 +459,29 @@ replace("(count - 1)\n        ", "(count - 1)\n            ")
 based_on("uses no lock")
 replace("\n\n", "\n\n        self.lock = threading.Lock()\n\n")
 replace("self.shelf.write(count - 1)", "with self.lock:\n            self.shelf.write(count - 1)")
+# %% 10.4 wrong: uses a flag instead of a lock | hint: such as a threading.Lock, while you read, decide and write
+class Stock:
+    def __init__(self, shelf):
+        self.shelf = shelf
+        self.busy = False
+
+    def handle_take(self, request):
+        while self.busy:
+            time.sleep(0.001)
+        self.busy = True
+        try:
+            count = self.shelf.read()
+            if count == 0:
+                return TriggerResponse(success=False, message="sold out")
+            self.shelf.write(count - 1)
+            return TriggerResponse(success=True, message=str(count - 1))
+        finally:
+            self.busy = False
+
+
+stock = Stock(Shelf(10))
+stock_service = rospy.Service("/take_from_stock", Trigger, stock.handle_take)
+
 # %% 10.4 wrong: does not release the lock if the shelf is empty | hint: A client waits forever, because a thread does not release the lock
 replace("with self. … count - 1)", """self.lock.acquire()
         count = self.shelf.read()
@@ -647,9 +648,22 @@ replace("str(uuid.uuid4()),", "self.request_id,")
 # %% 10.5 wrong: takes the ids from a counter | hint: The ids come from a
 replace("str(uuid.uuid4())", "str(next(NUMBERS))")
 replace("class Shop", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\nclass Shop")
-# %% 10.5 wrong: takes the ids from a counter with the number of the shop | hint: The ids come from a
-replace("str(uuid.uuid4())", 'f"shop1-{next(NUMBERS)}"')
-replace("class Shop", "import itertools\n\nNUMBERS = itertools.count(1)\n\n\nclass Shop")
+# %% 10.5 wrong: takes the ids from a counter, with a fixed text | hint: Two Shop objects created the same request_id
+replace("self.till = till", "self.till = till\n        self.number = 0")
+replace("self.shelf.write(count - 1)", 'self.shelf.write(count - 1)\n            self.number += 1\n            request_id = f"shop1-{self.number}"')
+replace("str(uuid.uuid4())", "request_id")
+# %% 10.5 wrong: calls a missing till three times | hint: The call of the till failed, and your handler called the till
+replace("            receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt", "            receipt = self.pay(str(uuid.uuid4()))")
+replace("    def handle_buy", """    def pay(self, request_id):
+        for attempt in (1, 2, 3):
+            try:
+                return rospy.ServiceProxy(self.till, Charge)(request_id, self.cents).receipt
+            except rospy.ServiceException as error:
+                if "unavailable" not in str(error) or attempt == 3:
+                    raise
+                time.sleep(0.1)
+
+    def handle_buy""")
 # %% 10.5 wrong: sends no id | hint: The field `request_id` is empty
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(cents=self.cents).receipt")
 # %% 10.5 wrong: returns another message for an empty shelf | hint: The shelf is empty, but the handler did not report this

@@ -13,9 +13,9 @@ from course_pkg.checking.plain_values import Message
 LIMIT = 1.6  # In the basket of the check, a handler waits up to this time in s.
 SLACK = 0.8  # SLACK is the additional time in s that a call may take on a busy machine.
 LATER = 0.3  # An item is put into the basket after this time in s.
-# The waiting handler is woken again after this time in s, when most of its time limit is over.
-AGAIN = 1.3
-LAST = 1.2  # The last of several items is put into the basket after this time in s.
+# After this time in s, the last of several items is put into the basket, or the check wakes all threads. If
+# the time limit starts again at this moment, the call takes too long.
+LAST = 1.2
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -220,12 +220,10 @@ def _at_once(context: CheckContext, assertion: str, took: float) -> None:
 
 
 def _waits_for_an_item(context: CheckContext, put: Service, take: Service) -> None:
-    wakings = [Timer(wait, context.run, ("checked_basket.wake",)) for wait in (LATER, AGAIN)]
-    for waking in wakings:
-        waking.start()
+    waking = Timer(LAST, context.run, ("checked_basket.wake",))
+    waking.start()
     response = take()
-    for waking in wakings:
-        waking.join()
+    waking.join()
     context.require(
         "if the basket stays empty, /take reports this when the time limit is over",
         holds=response.success or LIMIT - 0.1 <= take.took < LIMIT + SLACK,

@@ -85,7 +85,11 @@ class Proxies:
 
 
 class Gate:
-    """A server that waits until `count` calls arrive, or for `TOGETHER` s; it responds `hold` s later."""
+    """A server that waits until `count` calls arrive, or for `TOGETHER` s; it responds `hold` s later.
+
+    Its messages are the texts in `words`. If there are several messages, the field `success` of the first
+    response is False.
+    """
 
     def __init__(self, count: int, words: list[str], hold: float = 0.0) -> None:
         self.most = 0  # `most` is the maximum number of clients that waited at the same time.
@@ -100,7 +104,8 @@ class Gate:
     def __call__(self, _: Message) -> dict[str, Json]:
         """Handle a request: wait for the other clients, and return the next text in the list."""
         with self._changed:
-            number = self.requests % len(self._words)
+            word = self._words[self.requests % len(self._words)]
+            success = self.requests > 0 or self._count == 1
             self.requests += 1
             self._inside += 1
             self.most = max(self.most, self._inside)
@@ -112,8 +117,7 @@ class Gate:
         with self._changed:
             self._inside -= 1
             self.answered = time.monotonic()
-        # Some responses have success=False, and their messages count, too.
-        return {"success": number % 3 != 1, "message": self._words[number]}
+        return {"success": success, "message": word}
 
 
 NOT_TOGETHER: Hints = [
@@ -159,14 +163,15 @@ def calls_at_once(context: CheckContext) -> None:
     """Run the student's function with few and with many clients; the server waits for all of their calls.
 
     In a run with one client, the call takes longer. Therefore, a function that uses join() with a short
-    timeout returns too early. The order of the runs is random.
+    timeout returns too early. The run with few clients is the first, because a wrong answer may not end in the
+    other runs.
     """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:
         few = context.random.integer(3, 4)
         slow = (1, context.random.number(SHORTEST, LONGEST))
-        runs = context.random.shuffled([slow, (few, 0.0), (context.random.integer(24, 36), 0.0)])
+        runs = [(few, 0.0), *context.random.shuffled([slow, (context.random.integer(24, 36), 0.0)])]
         earlier: list[str] = []
         late = max([_round(context, earlier, count, hold) for count, hold in runs])
         if late > PROMPT:
@@ -184,12 +189,14 @@ def _round(context: CheckContext, earlier: list[str], count: int, hold: float = 
     name = f"/{context.random.word()}"
     proxies = Proxies()
     context.place("checked_proxies", proxies)
-    words = [context.random.word(8) for _ in range(max(count - 1, 1))]
-    words += words[-1:] * (count - len(words))  # The last two responses contain the same message.
+    words = [context.random.word(8) for _ in range(count)]
+    words[-1] = words[-2 % count]  # The last two responses contain the same message.
     gate = Gate(count, words, hold)
     server = context.serve(name, TRIGGER, gate)
     result = context.run("call_at_once", name, count, within=LIMIT + hold, hints=ERRORS)
     late = time.monotonic() - gate.answered
+    if proxies.shared:  # If threads share a persistent proxy, the function may never return.
+        _shares_no_proxy(context, proxies, server)
     found = result.returned()
     _called(context, count, gate)
     _calls_itself(context, server)
@@ -263,7 +270,7 @@ def _returned(context: CheckContext, words: list[str], found: Json, earlier: lis
     context.require(
         "call_at_once() returns a list with the message of each response",
         holds=isinstance(found, list) and sorted(map(str, items)) == sorted(words),
-        expected=f"the {len(words)} messages, in any order",
+        expected=f"the message of each response, in any order; responses: {len(words)}",
         actual=found,
         hints=[
             (None, NO_RETURN),
@@ -279,13 +286,9 @@ def _returned(context: CheckContext, words: list[str], found: Json, earlier: lis
                 "only once.",
             ),
             (
-                lambda actual: (
-                    isinstance(actual, list)
-                    and sorted(map(str, actual))
-                    == sorted(word for place, word in enumerate(words) if place % 3 != 1)
-                ),
-                "The messages of the responses with success=False are missing. Return the message of each "
-                "response.",
+                lambda actual: words[1:] and sorted(map(str, actual)) == sorted(words[1:]),
+                "The message of a response with success=False is missing in the list. Append the message "
+                "of each response, even if its field `success` is False.",
             ),
             (
                 lambda actual: isinstance(actual, list) and len(actual) < len(words),

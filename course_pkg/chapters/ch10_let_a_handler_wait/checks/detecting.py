@@ -15,16 +15,18 @@ from course_pkg.waiting import wait_until
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
 SLACK = 1.5  # SLACK is the additional time in s that a call may take on a busy machine.
-# This value of `patience` (s) is for calls without a customer. A handler that waits twice as long exceeds the
-# time limit of the call. A handler that rounds the value down returns too early.
-LONG = 2.3
+# This value of `patience` (s) is for calls without a customer. It is not a whole number. A handler that waits
+# twice as long exceeds the time limit of the call.
+LONG = 1.7
 # A customer comes after this time in s. A handler that polls twice per second then responds 0.48 s late.
 LATER = 0.52
+# A customer comes this time in s after the call if the handler calls watch.next() only with the lock.
+SOON = 0.2
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
 CHANGE = 2.2  # After this time in s, the customers at the counter change again.
 # If a handler polls and does not wait for notifications, it must call watch.next() at least this many times
 # in `LONG` s.
-SELDOM = 8
+SELDOM = 7
 LOOKS = 3000  # In `LONG` s, a loop without a pause calls watch.next() more than this many times.
 
 USED = 0.3  # USED is the CPU time in s that the kernel may use within `LONG` s.
@@ -57,6 +59,10 @@ LEFT = (
     "The handler called watch.next() twice, but the customer left before the second call. Use the "
     "result of the first call, or make both calls inside one `with watch.changed:` block."
 )
+MISSED = (
+    "A customer came between your call of watch.next() and the wait, so the handler missed the notification. "
+    "Call watch.next() and wait() inside one `with watch.changed:` block."
+)
 RARELY = (
     "The handler calls watch.next() only a few times per second, so it notices a customer late. "
     "Wait with watch.changed.wait_for(...), which checks again after each notification."
@@ -65,12 +71,9 @@ HELD = (
     "The handler did not notice a new customer, because it holds the lock of `changed` while it "
     "sleeps. Use changed.wait_for(...), which releases the lock during the wait."
 )
-ROUNDED = (
-    "The handler waited only for the whole seconds of request.patience. This field can have digits after the "
-    "point, so use its value without rounding."
-)
 TOO_EARLY = (
-    "The handler returned too early. If no customer is there, wait until request.patience seconds are over."
+    "The handler returned too early. If no customer is there, wait until request.patience seconds are over, "
+    "and do not round this number."
 )
 ERRORS = [
     (
@@ -137,6 +140,7 @@ def wait_for_a_customer(context: CheckContext) -> None:
             "shop.watch.changed.waits"
         )
         _somebody(context, detect, shop, rarely=rarely)
+        _misses_nobody(context, detect, shop)
         context.fulfilled(FOUND)
         _several(context, detect, shop)
     finally:
@@ -165,6 +169,11 @@ class _Shop:
         """
         Timer(seconds, self.there, numbers).start()
 
+    def is_silent(self) -> None:
+        """Publish nothing until the next call of `there` or `later`."""
+        if self._saying:
+            self._saying.stop()
+
     def await_sight(self, count: int) -> None:
         """Wait until the kernel has received a message with `count` customers."""
         self._await("count", count)
@@ -184,11 +193,7 @@ def _nobody(context: CheckContext, detect: Service) -> None:
             holds=patience - 0.1 <= detect.took < patience + SLACK,
             expected=f"a response after {patience:g} s",
             actual=f"a response after {detect.took:.1f} s",
-            hints=FOREVER
-            if detect.took > patience
-            else ROUNDED
-            if 1.0 < int(patience) - 0.05 < detect.took
-            else TOO_EARLY,
+            hints=TOO_EARLY if detect.took < patience else FOREVER,
         )
         context.require(
             "a waiting handler needs almost no processor time",
@@ -283,6 +288,21 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
         actual=f"a response {late:.1f} s after the arrival of the customer",
         hints=RARELY,
     )
+
+
+def _misses_nobody(context: CheckContext, detect: Service, shop: _Shop) -> None:
+    """Let a customer come immediately after the handler has called watch.next() without the lock.
+
+    A handler that calls watch.next() only with the lock cannot miss a customer. For such a handler, the
+    customer comes `SOON` s after the call.
+    """
+    number = context.random.integer(1000, 9000)
+    shop.is_silent()
+    context.run("shop.watch.announce", number)
+    shop.later(SOON, number)
+    detect(after=number - 1, patience=PATIENCE)
+    _at_once(context, "if a customer comes, the handler responds immediately", detect.took, SOON, hint=MISSED)
+    context.run("shop.watch.announce", 0)
 
 
 def _same_time(context: CheckContext, response: Message, again: Message) -> None:

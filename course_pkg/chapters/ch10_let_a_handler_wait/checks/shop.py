@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_crowd import ANOTHER_NUMBER, sells_to_fifty
 from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_in_kernel import (
+    CALLERS,
     KERNEL_CODE,
     MANY,
     ONE,
@@ -41,6 +42,10 @@ NOT_CAUGHT = (
 NO_TILL = (
     "No server offers the till's service, but the handler waits for this service without a time limit. "
     "Call the service immediately: without a server, the call raises rospy.ServiceException."
+)
+AGAIN = (
+    "The call of the till failed, and your handler called the till again. Call the till only once: the "
+    "client decides whether to try again."
 )
 
 SOLD = "Sell one thing, and do not hold the lock while you call the till's service."
@@ -90,6 +95,7 @@ def no_lock_across_a_call(context: CheckContext) -> None:
         sells_to_fifty(context, buying, looking, till, shelf, count - 1)
     finally:
         context.run("checked_shop.close")
+    _creates_other_ids(context, services, cents, charge, till)
     _has_no_till(context, cents)
 
 
@@ -106,12 +112,36 @@ def _opened(
     return context.run("checked_shop.open", *its, services, cents, charge, worded=worded)
 
 
+def _creates_other_ids(
+    context: CheckContext, services: dict[str, str], cents: int, charge: str, till: Till
+) -> None:
+    """Buy in a second shop with the same till, and assert that the request_id is new."""
+    known = till.ids.copy()
+    till.acts.clear()
+    _opened(context, CheckedShelf(2), services, cents, charge, "Shop(shelf, cents, till)")
+    try:
+        context.service(next(iter(services)), TRIGGER, hints=ERRORS, timeout=ONE)()
+        context.require(
+            f"{CALLERS} clients at the same time: each purchase has its own request_id",
+            holds=till.ids[-1] not in known,
+            expected="a request_id that the first shop has not used",
+            actual=till.ids[-1],
+            hints=(
+                "Two Shop objects created the same request_id, because each object counts from the "
+                "beginning. Create each id with uuid.uuid4()."
+            ),
+        )
+    finally:
+        context.run("checked_shop.close")
+
+
 def _has_no_till(context: CheckContext, cents: int) -> None:
     """Buy in a shop without a running till, so that the shop's call to the till fails immediately."""
     buy, left, charge = (f"/{context.random.word()}" for _ in range(3))
     count = context.random.integer(2, 9)
     services = {buy: "handle_buy", left: "handle_left"}
     _opened(context, CheckedShelf(count), services, cents, charge, "Shop(shelf, cents, till)")
+    context.run("checked_shop.count_calls", charge)
     try:
         failed = [(matches("TimesUp"), NO_TILL), (matches("process request"), NOT_CAUGHT)]
         response = context.service(buy, TRIGGER, hints=failed, timeout=ABSENT)()
@@ -124,6 +154,13 @@ def _has_no_till(context: CheckContext, cents: int) -> None:
                 "No server offers the till's service, so the client did not pay. Return success=False, "
                 "and the text of the error as the message."
             ),
+        )
+        context.require(
+            "the shop sells nothing if the call of the till fails",
+            holds=context.read("checked_shop.calls", int) <= 1,
+            expected="one call",
+            actual="several calls",
+            hints=AGAIN,
         )
         context.expect(
             "after a failed payment, the thing is on the shelf again",
@@ -226,10 +263,7 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
                 "fails, return success=False."
             )
             if asked == 1
-            else (
-                "The call of the till failed, and your handler called the till again. Call the till "
-                "only once: the client decides whether to try again."
-            ),
+            else AGAIN,
         )
         context.require(
             "the shop sells nothing if the call of the till fails",

@@ -42,6 +42,8 @@ from std_srvs.srv import Trigger
 
 
 class CheckedShop:
+    original = None  # the method ServiceProxy.call while count_calls() replaces it
+
     def open(self, kind, shelf, services, *others):
         small_stacks.begin()
         self.one = kind(shelf, *others)
@@ -56,8 +58,20 @@ class CheckedShop:
         handlers = [(name, getattr(self.one, handler)) for name, handler in services.items()]
         self.services = [rospy.Service(name, Trigger, recorded(handler)) for name, handler in handlers]
 
+    def count_calls(self, name):
+        '''Count the calls of the service `name`, which does not exist, until close() is called.'''
+        self.calls, self.original = 0, rospy.ServiceProxy.call
+
+        def call(proxy, *args, **named):
+            self.calls += proxy.resolved_name == name
+            return self.original(proxy, *args, **named)
+
+        rospy.ServiceProxy.call = call
+
     def close(self):
         small_stacks.end()
+        if self.original:
+            rospy.ServiceProxy.call, self.original = self.original, None
         for service in self.services:
             service.shutdown("checked")
 

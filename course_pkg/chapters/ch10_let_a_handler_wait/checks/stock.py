@@ -13,6 +13,7 @@ from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_in_kernel import (
 )
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
+from course_pkg.checking.kernel.slow_lines import SLOW_LINES
 from course_pkg.checking.peers.service_calls import Service
 
 STUCK = (
@@ -38,8 +39,8 @@ ERRORS = [
     ),
 ]
 TWICE = (
-    "Two handlers read the same number, so too many things were sold. In all calls, hold the same lock "
-    "while you read, decide and write."
+    "Two handlers read the same number, so too many things were sold. In all calls, hold the same lock, "
+    "such as a threading.Lock, while you read, decide and write."
 )
 REREAD = (
     "Two clients got the same number of things that are left. Read the shelf only while you hold the lock, "
@@ -66,7 +67,7 @@ EMPTIED = 'Sell the things to one client after the other. When the shelf is empt
 def safe_with_fifty_clients(context: CheckContext) -> None:
     """Take all things from a small shelf with single calls; then make fifty simultaneous calls."""
     name = f"/{context.random.word()}"
-    context.prepare(KERNEL_CODE)
+    context.prepare(KERNEL_CODE + SLOW_LINES)
     few = context.random.integer(2, 4)
     take = _opened(context, name, CheckedShelf(few), ONE)
     try:
@@ -83,6 +84,7 @@ def safe_with_fifty_clients(context: CheckContext) -> None:
         shelf.things = few
         _sells_what_comes_later(context, take, few)
     finally:
+        context.run("slow_lines.end")
         context.run("checked_shop.close")
 
 
@@ -176,6 +178,7 @@ def _wrong_number_sold(count: int) -> Hints:
 
 def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count: int) -> None:
     shelf.await_crowd()
+    context.run("slow_lines.begin")
     replies = [reply.response for reply in take.at_once([{}] * CALLERS)]
     sold = [reply.message for reply in replies if reply.success]
     if not shelf.together:

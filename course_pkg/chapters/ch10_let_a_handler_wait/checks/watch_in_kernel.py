@@ -36,6 +36,7 @@ class CountingWatch:
         self.customers = {}
         self.looks, self.told = 0, False
         self.finders = set()  # threads whose handler has seen a customer
+        self.coming = 0  # number of a customer who comes during the next call of next() without the lock
         self.left = False  # whether a handler called next() without the lock after the customer had left
 
     @property
@@ -50,9 +51,20 @@ class CountingWatch:
             if self.customers.keys() != known.keys():
                 self.changed.notify_all()
 
+    def announce(self, number):
+        self.coming = number
+
+    def arrive(self):
+        with self.changed:
+            self.customers = {self.coming: Customer(self.coming, rospy.Time.now())}
+            self.coming = 0
+            self.changed.notify_all()
+
     def next(self, after=0):
         self.looks += 1
         customer = min((each for each in self.customers.values() if each.number > after), default=None)
+        if self.coming and not customer and not self.changed.is_held():
+            self.arrive()  # The handler that called next() cannot see this customer without another call.
         if customer and threading.get_ident() in self.finders and not self.changed.is_held():
             self.left, customer = True, None
         if customer:
