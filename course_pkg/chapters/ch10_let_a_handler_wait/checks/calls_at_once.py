@@ -163,8 +163,8 @@ def calls_at_once(context: CheckContext) -> None:
     """Run the student's function with few and with many clients; the server waits for all of their calls.
 
     In a run with one client, the call takes longer. Therefore, a function that uses join() with a short
-    timeout returns too early. The run with few clients is the first, because a wrong answer may not end in the
-    other runs.
+    timeout returns too early. The run with few clients is the first, because a wrong answer may not end in
+    the other runs.
     """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
