@@ -137,6 +137,8 @@ replace("while not newest and", "while False and")
 replace("timeout=request.patience)", "timeout=min(request.patience, 1.0))")
 # %% 15.2 wrong: waits for 30 s in any case | hint: The response came too late
 replace(", timeout=request.patience)", ", timeout=30)")
+# %% 15.2 wrong: starts the time limit again after each message | hint: because each message starts the time limit of `wait()` again
+replace("            return self.changed.wait_for(lambda: self.customer, timeout=request.patience)", "            while not self.customer and self.changed.wait(request.patience):\n                pass\n            return self.customer")
 # %% 15.2 wrong: always returns False | hint: The newest message reports a customer, but `found` is False in the response
 based_on("uses a loop that polls")
 replace("found=bool(newest)", "")
@@ -771,7 +773,7 @@ replace("if not request.item:", "if False:")
 replace("request.cents < 0", "False")
 # %% 15.9 wrong: checks the sum instead of the items | hint: The till has an item that costs 0 cents, so it is not empty
 replace("if not prices:", "if not sum(prices.values()):")
-# %% 15.9 wrong: does not remove the items | hint: The till still has items after a reset
+# %% 15.9 wrong: does not remove the items | hint: remove all items, and set a stored total to 0
 replace("        prices.clear()\n", "")
 # %% 15.9 wrong: calculates the sum before it acquires the lock | hint: but the sum does not contain this item
 replace("handle_reset(request):", """handle_reset(request):
@@ -913,6 +915,8 @@ launch.write_text(RESPAWNING.replace('name="till" respawn="true"', 'name="till"'
 replace('name="till" respawn="true"', 'name="till"')
 # %% 15.11 wrong: writes a file that is not valid XML | hint: roslaunch ended. Type
 replace('name="robot" />', 'name="robot" >')
+# %% 15.11 wrong: gives the name of a file that does not exist | hint: roslaunch does not find a program, or its file is not executable
+replace('type="vision.py"', 'type="vison.py"')
 # %% 15.11 wrong: does not start vision | hint: Go to the exercise in which you … Go to the exercise in which you
 replace('  <node pkg="my_cashier" type="vision.py" name="vision" respawn="true" />\n', "")
 # %% 15.11 wrong: gives a node another name | hint: Go to the exercise in which you wrote this node, and run the check of

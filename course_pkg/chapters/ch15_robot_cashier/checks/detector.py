@@ -47,7 +47,10 @@ NO_WAIT = (
     "The response came too early. If no customer is there, wait for request.patience seconds in total: use "
     "`wait_for`, because each message ends a call of `wait()`."
 )
-TOO_LONG = "The response came too late. Wait for at most request.patience seconds."
+TOO_LONG = (
+    "The response came too late. Wait for request.patience seconds in total: use `wait_for`, because each "
+    "message starts the time limit of `wait()` again."
+)
 ONE_BY_ONE = (
     "One call had to wait for another call. Do not hold a lock while the handler waits "
     "(Condition.wait_for releases its lock during the wait)."

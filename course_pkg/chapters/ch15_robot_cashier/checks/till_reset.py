@@ -34,7 +34,10 @@ EMPTY = 'The till has no items, so the message has to be "already empty". Set th
 FREE_ITEM = (
     "The till has an item that costs 0 cents, so it is not empty. Check the number of items, not the sum."
 )
-KEPT = "The till still has items after a reset. Remove all items in the handler of till/reset."
+KEPT = (
+    "After a reset, till/total still counts the previous customer's items. In the handler of till/reset, "
+    "remove all items, and set a stored total to 0."
+)
 NOT_COUNTED = (
     "The reset came while the printer was printing an item, but the sum does not contain this item. In "
     "the handler of till/reset, acquire the lock of till/set before you calculate the sum."

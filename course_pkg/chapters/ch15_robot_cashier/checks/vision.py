@@ -45,7 +45,7 @@ LIMIT = (
 )
 PADDING = (
     "Each row has frame.step bytes, but only the first frame.width bytes are points. The row with "
-    "the index r begins at byte r * frame.step."
+    "the index r begins at byte r * frame.step. The frame has width * height points."
 )
 ENCODING = (
     "The encoding of this frame is not mono8, so the frame is not valid. Publish nothing if "

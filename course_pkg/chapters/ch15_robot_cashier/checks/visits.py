@@ -82,7 +82,7 @@ VISIT_GOES_ON = (
 )
 VISIT_OVER = (
     "In the last response, `found` was False, so no customer is there. Set the field `patience` of "
-    "the next call to the value of ~wait."
+    "the next call to the value of ~wait, even if till/reset fails."
 )
 HASTY = "The next call came too early. While a customer is there, wait 0.2 s between two calls."
 SLOW = (

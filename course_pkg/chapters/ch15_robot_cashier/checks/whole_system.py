@@ -48,6 +48,10 @@ NOT_LAUNCHED = (
     "The command roslaunch ended. Type `roslaunch my_cashier cashier.launch hardware:=false` in the "
     "terminal, and read its output."
 )
+NOT_FOUND = (
+    "roslaunch does not find a program, or its file is not executable. Compare the attribute type with the "
+    "files in src/my_cashier/scripts, and type `chmod +x src/my_cashier/scripts/*.py` in the terminal."
+)
 RESPAWN = (
     'roslaunch did not start a node again. Add respawn="true" to the <node> tag of each of your nodes, and '
     'remove required="true".'
@@ -140,7 +144,9 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
                 SYSTEM,
                 expected=f"{name} of the node {node}",
                 actual=telling_line(printed) if status is not None else f"no {name}",
-                hint=NOT_LAUNCHED
+                hint=NOT_FOUND
+                if "Cannot locate node" in printed
+                else NOT_LAUNCHED
                 if status is not None
                 else (
                     f"The node {node} is missing, or the node has no {name}. Go to the exercise in "
