@@ -37,7 +37,7 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
 
     Two numbers count as equal if their absolute or relative difference is at most `near`.
 
-    True is not equal to 1.
+    In contrast to `==`, True and 1 are different.
     """
     if isinstance(expected, dict) and isinstance(actual, dict):
         return expected.keys() == actual.keys() and all(

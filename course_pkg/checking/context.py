@@ -307,9 +307,9 @@ class CheckContext:
     def prepare(self, code: str, within: float = 5.0) -> None:
         """Run the check's own `code` in the kernel, separately from the student's names.
 
-        The names that this code defines can be arguments of the student's function, such as `service` in
-        `context.run("close", Its("service"))`. The student's code can modify these objects. Store the check's
-        data in an object that place() makes available. Raises CheckError if the code fails.
+        The student's function can get an object that this code defines: `context.run("close",
+        Its("service"))` passes the object `service`. The student's code can modify these objects. Store the
+        check's data in an object that place() makes available. Raises CheckError if the code fails.
         """
         error = self._channel.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
         if error:

@@ -102,7 +102,7 @@ class TeacherHandler(Handler):
     """Refuses requests without a teacher's token, and requests that come from another page."""
 
     async def prepare(self) -> None:
-        """Refuse a request without a teacher's token, or redirect the browser to the hub's login."""
+        """Refuse a request without a teacher's token; on a hub, redirect the browser to the hub's login."""
         if (
             self.request.headers.get("Sec-Fetch-Site", "none") == "cross-site"
             and self.request.path != self.shared.prefix

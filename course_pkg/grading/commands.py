@@ -52,8 +52,8 @@ def _grade_arguments(parser: ArgumentParser) -> None:
         metavar="submissions",
         type=Path,
         help=(
-            "a folder that contains STUDENT/NN_topic.ipynb, a zip file of this folder, or a download from a "
-            "learning platform"
+            "a folder with the files STUDENT/NN_topic.ipynb, or a zip file of such a folder, or a download "
+            "from a learning platform"
         ),
     )
     parser.add_argument(

@@ -34,8 +34,8 @@ def make_own_files(places: Places) -> None:
             write_atomically(record, json.dumps(delivered, indent=1))
     except OSError as error:
         raise SetupError(
-            f"Your own folder {places.own} cannot be written ({error.strerror}). Delete files if your disk "
-            "is full. If you have no home folder, set COURSE_HOME to a folder that you can write to."
+            f"The course cannot write to your folder {places.own} ({error.strerror}). Delete files if your "
+            "disk is full. If you have no home folder, set COURSE_HOME to a folder that you can write to."
         ) from error
     if kept:
         sys.stderr.write(

@@ -34,7 +34,7 @@ class Panel(anywidget.AnyWidget):
     shared_sheets: ClassVar[tuple[Path, ...]] = ()  # Several panels use these style sheets.
 
     notice = Unicode(help="an error inside the panel itself, in one line").tag(sync=True)
-    explained = Dict(help="the explanation of the error that the panel shows, if the course has one").tag(
+    explained = Dict(help="the course's explanation of the displayed error, if there is an explanation").tag(
         sync=True
     )
 

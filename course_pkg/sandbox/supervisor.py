@@ -82,7 +82,8 @@ def supervise(
 def _make_folder(isolation: Isolation, hidden: Sequence[str]) -> str:
     """Return the part's work folder.
 
-    In a sandbox, first create a network and a hostname for this part only, and hide the paths in `hidden`.
+    If namespaces are available, create a network and a hostname for this part, and hide the paths in
+    `hidden`, before the folder is made.
     """
     if isolation.users:
         return users.make_folder(isolation.users)

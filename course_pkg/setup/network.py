@@ -47,7 +47,7 @@ def network_problem(account: str | None = None) -> tuple[str, str]:
             return f"{name} is {forbids} ({reason})", f"As an administrator, type: sysctl -w {name}={allows}"
     return (
         reason,
-        "Ask the administrator to allow user namespaces; in a container, the host has to allow them",
+        "Ask the administrator to allow user namespaces; for a container, its host has to allow them",
     )
 
 

@@ -174,7 +174,7 @@ class _Diagnosis:
         if text.endswith(":"):
             return f"write the type first, then the name, without a colon: {name} {text[:-1]}"
         if "[" in text and "]" in text:
-            return "write the length in brackets as a number, as in float32[3], or leave it out"
+            return "write the length in brackets as a number, as in float32[3], or leave the brackets empty"
         return "write a type such as float32, string, or geometry_msgs/Point"
 
     def _known_advice(self, base: str, brackets: str, name: str) -> str:

@@ -78,7 +78,7 @@ def fresh_main() -> int:
 
 
 def fresh_measure(pristine: Path, system: Path) -> float:
-    """Copy a new system, and return the duration in s of the first start in the copy."""
+    """Copy a newly installed system, and return the time in s of the course's first start in the copy."""
     subprocess.run(["cp", "-a", pristine, system], check=True)
     checkout = system / "home" / "course"
     checkout.mkdir(parents=True)

@@ -57,7 +57,9 @@ def test_a_folder_that_cannot_be_created_is_one_message(
 ) -> None:
     """If the user's folder cannot be written, the error message says how to select another folder."""
     monkeypatch.setenv("COURSE_HOME", "/proc/none/ros-course")
-    with pytest.raises(SetupError, match=r"/proc/none/ros-course cannot be written \(.*set COURSE_HOME to"):
+    with pytest.raises(
+        SetupError, match=r"cannot write to your folder /proc/none/ros-course \(.*set COURSE_HOME to"
+    ):
         make_own_files(places)
 
 

@@ -136,7 +136,7 @@ replace("[-angle for angle in message.position]\n        image.velocity = [-spee
         for angle, speed in zip(message.position, message.velocity):
             image.position.append(-angle)
             image.velocity.append(-speed)""")
-# %% 02.2 wrong: iterates over names, positions and velocities at the same time | hint: and your callback lost the names
+# %% 02.2 wrong: iterates over names, positions and velocities at the same time | hint: your callback publishes a message without names
 replace("name=message.name", "name=[]")
 replace("[-angle for angle in message.position]\n        image.velocity = [-speed for speed in message.velocity]", """[]
         image.velocity = []
@@ -152,7 +152,7 @@ replace("[-angle for angle in message.position]\n        image.velocity = [-spee
 # %% 02.2 wrong: uses absolute values | hint: A negative number has to become positive
 replace("-angle", "abs(angle)")
 replace("-speed", "abs(speed)")
-# %% 02.2 wrong: brings each angle into the range from -π to π | hint: Your callback brought a number into
+# %% 02.2 wrong: brings each angle into the range from -π to π | hint: Your callback changed a number to a number between
 replace("[-angle", "[(math.pi - angle) % (2 * math.pi) - math.pi")
 replace("def start_mirror", "import math\n\n\ndef start_mirror")
 # %% 02.2 wrong: keeps the publisher in a global variable | hint: The check started two mirrors

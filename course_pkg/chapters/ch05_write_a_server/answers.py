@@ -177,7 +177,7 @@ replace("(self.count)", "(before)")
 replace("self.count = 0\n        return EmptyResponse()", "return EmptyResponse()")
 # %% 05.2 wrong: resets another object | hint: use the same Counter object for both services
 replace("counter.handle_reset", "Counter().handle_reset")
-# %% 05.2 wrong: counts in a local variable | hint: The message is 1 again. Store
+# %% 05.2 wrong: counts in a local variable | hint: The message is also 1 after the second call. Store
 replace("self.count += 1", "count = 0\n        count += 1")
 replace("str(self.count)", "str(count)")
 # %% 05.2 wrong: omits success | hint: success is False, because ROS

@@ -104,7 +104,7 @@ class FaultyServer(ScriptedServer):
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
         """Reply to the handshake if the next fault is not Frozen.
 
-        A probe, such as the probe of rosservice, removes no fault from the plan.
+        A probe, such as the probe of rosservice, does not use a planned fault; the next real call gets it.
         """
         if header.get("probe") == "1":
             with self._plan_lock:

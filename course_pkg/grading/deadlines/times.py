@@ -81,7 +81,7 @@ class _Entry:
 
 @dataclass(frozen=True)
 class _Table:
-    """The rows of a table of times, for each student.
+    """A table of times; it contains the rows of each student.
 
     If a submission has several times, the latest time counts, because all files are graded.
     """

@@ -12,7 +12,7 @@ with enough rare comments, strings and names. Here, something is rare if at most
 the second case, the pair has several nearly identical answers. For each of these answers, p is the fraction
 of all pairs of students with answers that are at least as similar. This fraction is an estimate of the
 probability that the similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than
-MARGIN above log2 of the number of pairs. On average, the course then flags fewer than one pair of a class by
+log2(number of pairs) + MARGIN. On average, the course then flags fewer than one pair of a class by
 coincidence.
 """
 

@@ -195,7 +195,8 @@ def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[in
     """
     found = [[message, callback] for message in part[PUBLISH] for callback in part[CALLBACK]]
     for handler in part[HANDLER]:
-        # If the client sent the request before the recording began, its arrow begins at the client's wait.
+        # If the client sent the request before the recording began, the request's arrow begins at the bar of
+        # the client's wait.
         found += [[caller, handler] for caller in (part[REQUEST] or part[WAIT])[:1]]
         answers = [number for number in (*part[RESPONSE], *part[ERROR]) if events[number].peer]
         found += [[handler, answer] for answer in answers if events[handler].end is not None]

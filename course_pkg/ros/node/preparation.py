@@ -77,9 +77,7 @@ def guard_against_idle_connections() -> bool:
     listener = getattr(server, "tcp_ros_server", None)
     serve = getattr(listener, "inbound_handler", None)
     if listener is None or not callable(serve):
-        text = (
-            "idle connections can block this node, because this rospy accepts connections in a different way"
-        )
+        text = "idle connections can block this node, because this version of rospy is unknown"
         logging.getLogger("rospy.course").warning(text)
         return False
     if not (isinstance(serve, partial) and serve.func is _accepted):

@@ -91,7 +91,7 @@ class PrivateGraph:
 
 
 def _end(master: PrivateMaster, processes: list[NodeProcess]) -> None:
-    """End all programs at the same time, and then the master; the registrations end with the master."""
+    """End all programs at the same time, and then the master with all registrations."""
     for process in processes:
         process.interrupt()
     while processes:

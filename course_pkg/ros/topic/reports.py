@@ -98,7 +98,7 @@ class Curve(TypedDict):
 
 
 class Report(TypedDict, total=False):
-    """A report; a key is missing if its value has not changed.
+    """A report; it contains only the values that have changed since the previous report.
 
     `trouble` is an error message if the process cannot reach the master, and "" otherwise. `node` is the name
     of the process's node. `count` is the number of received messages, `statistics` contains their rate, and

@@ -42,7 +42,7 @@ class Users(NamedTuple):
 
 
 def reserve() -> tuple[Users, socket.socket]:
-    """Return users that no other worker of this machine uses, until the returned socket is closed."""
+    """Reserve users, and return them with a socket; the users are reserved until the socket is closed."""
     for number in range(GROUPS):
         lock = socket.socket(socket.AF_UNIX)
         first = FIRST + number * len(Users._fields)

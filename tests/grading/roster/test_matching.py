@@ -50,7 +50,7 @@ def test_names_in_any_order_and_with_any_accents(name: str) -> None:
 
 
 def test_two_students_with_one_name() -> None:
-    """If a name is in two rows of the roster, the program reports the student as unclear."""
+    """If a name is in two rows of the roster, the program reports that the student's row is unclear."""
     found = _matched({"Ann Lee": ["Ann Lee/05.ipynb"]})
     assert "Ann Lee" not in found.people
     assert found.unclear == {"Ann Lee": "several rows fit the student of the roster (lines 4 and 5)"}

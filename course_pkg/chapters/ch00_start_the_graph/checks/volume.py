@@ -29,7 +29,7 @@ def ask_a_question(context: CheckContext) -> None:
         response: dict[str, float] = {}
         server = context.serve(name, "course_pkg/geometry", lambda _, response=response: response)
         _, *others = boxes(context, context.random.integer(2, 4))
-        # These sides have four decimals, so a function that sends rounded sides fails.
+        # These lengths have four decimals, so a function that rounds them fails.
         first = context.random.numbers(3, 0.5, 9.0, digits=4)
         for number, sides in enumerate([first, first, *others]):
             area, volume = (

@@ -215,7 +215,7 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
         hints=[
             (
                 lambda actual: not actual and not message["velocity"],
-                "The received message has positions, but no velocities, and your callback lost the names. "
+                "If the received message has no velocities, your callback publishes a message without names. "
                 "Copy the names, and change the signs in each list separately.",
             ),
             ((), "The names of the joints are missing. Copy the names from the received message."),
@@ -280,7 +280,7 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
                 ),
                 (
                     _turned(values),
-                    "Your callback brought a number into the range from -π to π. A mirrored number may be "
+                    "Your callback changed a number to a number between -π and π. A mirrored number may be "
                     "outside of this range.",
                 ),
                 (ANYTHING, "Change only the sign of each number."),

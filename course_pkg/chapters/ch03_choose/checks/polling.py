@@ -249,7 +249,8 @@ def _polled(
         ),
         (
             matches("is not an attribute of DetectCustomerRequest"),
-            "The request has no field with this name. The fields of the request are `after` and `patience`.",
+            "Your function uses a field that the request does not have. The fields of the request are "
+            "`after` and `patience`.",
         ),
     ]
     result = context.run("poll", name, seconds, rate, within=8.0, hints=hints)

@@ -171,8 +171,8 @@ def a_counter_that_resets(context: CheckContext) -> None:
                     ("0", "The message is 0 after a call. Add 1 to the count before you return the message."),
                     (
                         "1",
-                        "The message is 1 again. Store the count in `self`, so that the next "
-                        "call can use this count.",
+                        "The message is also 1 after the second call. Store the count in `self`, so that "
+                        "the next call can use this count.",
                     ),
                 ],
             )

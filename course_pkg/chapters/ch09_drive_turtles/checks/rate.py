@@ -205,7 +205,7 @@ def returns_the_old_rate(
             (
                 (lambda actual: actual in earlier),
                 (
-                    "The field `before` contains an older rate. Return the rate that the previous call set, "
+                    "The field `before` contains an older rate. Return the rate of the previous call, "
                     "even if the loop does not use this rate yet."
                 ),
             ),
@@ -219,7 +219,7 @@ def returns_the_old_rate(
             (
                 ANYTHING,
                 (
-                    "The field `before` has a wrong value. Return the rate that the previous call set. In "
+                    "The field `before` has a wrong value. Return the rate of the previous call. In "
                     "the first call, return 2.0, because the program begins with 2 messages per second."
                 ),
             ),

@@ -58,7 +58,7 @@ REPEATS = (
 
 @dataclass
 class Client:
-    """The student's client; during each call, its server examines the files that the client executes."""
+    """The student's client. During each call, the check examines the files that the client executes."""
 
     context: CheckContext
     folder: Folder

@@ -40,8 +40,8 @@ int main(int argc, char** argv) {{
 AREA = "area is length times width, with the digits after the decimal point"  # the title of an assertion
 SIDES = ("length", "width", "height")
 FRACTION_BELOW = (
-    "The server sent a response, but a side was between -1 and 0. Compare the field of the request itself "
-    "with 0: as an int, such a side is 0."
+    "The server did not refuse a request in which a side is between -1 and 0. Compare the field of the "
+    "request with 0 before you convert it: the conversion to int changes such a side to 0."
 )
 EMPTY_AREA = (
     "The height was 0, so the volume is 0, but the area is not 0. Return length times width as the area of "

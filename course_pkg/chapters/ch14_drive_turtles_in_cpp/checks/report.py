@@ -186,7 +186,7 @@ def _uses_its_spinner(code: str) -> bool:
 
 
 def _leaves_battery_in_the_global_queue(code: str) -> bool:
-    """Return whether the service /battery certainly uses the global callback queue.
+    """Return True only if the service /battery certainly uses the global callback queue.
 
     For the result True, three conditions must hold for the NodeHandle that creates /battery: it is declared
     without arguments, it never gets another queue, and it is never copied or passed to a function.

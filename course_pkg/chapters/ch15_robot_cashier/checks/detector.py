@@ -80,8 +80,8 @@ FAILED: Hints = [
     (
         REFUSED_BY_HANDLER,
         (
-            "The handler refused a valid call. While messages arrive, accept each value of `patience` "
-            "from 0 to 60 s."
+            "The handler refused a valid call. If messages arrive on customer_seen, accept every value of "
+            "`patience` from 0 to 60 s."
         ),
     ),
     (matches("error processing"), BUG),

@@ -60,7 +60,7 @@ class Till:
 
 @contextmanager
 def running_till(context: CheckContext, *names: str) -> Iterator[Till]:
-    """Start the student's till together with a printer of the check."""
+    """Start the student's till, and a printer that the check provides."""
     with student_node(context, NAME, Interface(services=[SET, *names]), calls=[PRINT]) as space:
         printer = Printer()
         server = context.serve(f"{space}/{PRINT}", PRINT_LINE, printer.answer)

@@ -183,7 +183,7 @@ def the_visits(context: CheckContext) -> None:
         context.require(
             "the node calls detect_customer in a loop",
             holds=len(alone.patiences) > 2,
-            expected="a call after the end of a visit, even without the service till/reset",
+            expected="a call after the end of a visit, also if the service till/reset does not exist",
             actual="no call",
             hints=NO_TILL,
         )

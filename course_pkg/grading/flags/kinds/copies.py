@@ -45,7 +45,7 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _teams(group: Group) -> list[list[Work]]:
-    """Return the works in groups; the students of a group have submitted the same file."""
+    """Return groups of submissions; all submissions of a group come from the same file."""
     teams: dict[str, list[Work]] = {}
     for work in group.works:
         teams.setdefault(work.origin, []).append(work)

@@ -132,7 +132,7 @@ def _hints(book: Book) -> str:
 
 
 def _looks(book: Book) -> str:
-    """Return the students who need a look, with the most serious cases first.
+    """Return the students whose results the teacher should examine; the most serious cases come first.
 
     Notes about the remaining students follow, in a list that the reader can unfold.
     """
