@@ -188,11 +188,6 @@ replace("success=False", "success=True")
 replace("success=False", "success=not request.data")
 # %% 08.2 wrong: returns success=True for any response | hint: The lamp responded with the wrong
 replace('success=state == ("ON" if request.data else "OFF")', "success=True")
-# %% 08.2 wrong: accepts every state except the opposite state | hint: Return success=True only if the state is equal
-replace('state == ("ON" if request.data else "OFF")', 'state != ("OFF" if request.data else "ON")')
-# %% 08.2 wrong: accepts a state that contains the wanted state | hint: Return success=True only if the state is equal
-replace('state == ("ON"', '("ON"')
-replace('"OFF"), message', '"OFF") in state, message')
 # %% 08.2 wrong: returns the wanted state as the message | hint: The message is the wanted
 replace("message=state", 'message="ON" if request.data else "OFF"')
 # %% 08.2 wrong: compares the state with True | hint: The lamp has the wanted state
