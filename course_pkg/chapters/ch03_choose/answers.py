@@ -81,7 +81,7 @@ replace("1 / rate", "1 / rate if seconds > 1.5 else seconds")
 replace("return None", "return False")
 # %% 03.1 wrong: always polls for one second | hint: poll() returned before the time
 replace("+ seconds", "+ 1")
-# %% 03.1 wrong: sets a field of the response in the request | hint: The request has no field with
+# %% 03.1 wrong: sets a field of the response in the request | hint: Your function uses a field that the request does not have
 replace("after=0", "number=0")
 # %% 03.1 wrong: calls a fixed service name | hint: poll() did not call the given
 replace("ServiceProxy(service", 'ServiceProxy("/detect_customer"')

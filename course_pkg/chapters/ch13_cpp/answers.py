@@ -145,7 +145,7 @@ replace("true", "response.area >= 0 && response.volume >= 0")
 # %% 13.2 wrong: checks only the volume | hint: below 0. Refuse such a request
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 replace("true", "response.volume >= 0")
-# %% 13.2 wrong: converts the sides to int before the comparison | hint: but a side was between -1 and 0
+# %% 13.2 wrong: converts the sides to int before the comparison | hint: a request in which a side is between -1 and 0
 replace("request.length < 0 || request.width < 0 || request.height < 0", "int(request.length) < 0 || int(request.width) < 0 || int(request.height) < 0")
 # %% 13.2 wrong: returns the area 0 if the height is 0 | hint: The height was 0, so the volume is 0, but the area is not 0
 replace("  response.area =", "  if (request.height == 0) return true;\n  response.area =")
