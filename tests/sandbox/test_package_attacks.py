@@ -121,5 +121,5 @@ def test_a_second_line_with_dependencies_earns_no_points(worker: SandboxWorker) 
     report = examined(worker, {LISTS: text + APPENDS}, "07.3").report
     assert report is not None
     (failed,) = [each.text for each in report.assertions if not each.holds]
-    assert failed == "every package that uses this package also depends on message_runtime"
+    assert failed == ("every package that uses this package also depends on message_runtime, rospy, std_msgs")
     assert report.points == 2

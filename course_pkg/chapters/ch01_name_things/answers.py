@@ -80,13 +80,34 @@ def viewer_command(arm):
     words += [f"joint_states:=/{arm}/joint_states", f"mirrored_joints:=/screen/{arm}/mirrored_joints"]
     return " ".join(words)
 
-# %% 01.2 wrong: registers the names at the master without a viewer | hint: The viewer on the graph is not
+# %% 01.2 wrong: registers the names at the master without a viewer | hint: The node still has its default name. Choose
 def viewer_command(arm):
     viewer = rosgraph.Master(f"/screen/{arm}_viewer")
     uri = rospy.get_node_uri()
     viewer.registerSubscriber(f"/{arm}/joint_states", "sensor_msgs/JointState", uri)
     viewer.registerPublisher(f"/screen/{arm}/mirrored_joints", "sensor_msgs/JointState", uri)
     return "rosrun course_pkg simulator --help"
+
+# %% 01.2 wrong: registers the topics of the viewer at the master | hint: The viewer on the graph is not
+import threading
+
+
+def viewer_command(arm):
+    name = f"/screen/{arm}_viewer"
+
+    def register():
+        viewer = rosgraph.Master(name)
+        uri = ""
+        while not uri:
+            try:
+                uri = viewer.lookupNode(name)
+            except rosgraph.MasterException:
+                rospy.sleep(0.02)
+        viewer.registerSubscriber(f"/{arm}/joint_states", "sensor_msgs/JointState", uri)
+        viewer.registerPublisher(f"/screen/{arm}/mirrored_joints", "sensor_msgs/JointState", uri)
+
+    threading.Thread(target=register, daemon=True).start()
+    return f"rosrun course_pkg simulator __ns:=/screen __name:={arm}_viewer"
 
 # %% 01.2 wrong: does not remap joint_states | hint: The viewer subscribes to a
 replace("joint_states:=/{arm}/joint_states ", "")
