@@ -162,12 +162,16 @@ class _Shop:
             self._saying.stop()
         self._saying = self._context.publish(self._counter, COUNTER, [{"data": numbers}], every=0.05)
 
-    def later(self, seconds: float, *numbers: int) -> None:
+    def later(self, seconds: float, *numbers: int) -> Timer:
         """Wait for the time `seconds` (s), and then begin to publish the numbers of the customers.
+
+        Return immediately; the returned timer begins to publish.
 
         `numbers` contains the numbers of the customers at the counter.
         """
-        Timer(seconds, self.there, numbers).start()
+        timer = Timer(seconds, self.there, numbers)
+        timer.start()
+        return timer
 
     def is_silent(self) -> None:
         """Publish nothing until the next call of `there` or `later`."""
@@ -299,8 +303,9 @@ def _misses_nobody(context: CheckContext, detect: Service, shop: _Shop) -> None:
     number = context.random.integer(1000, 9000)
     shop.is_silent()
     context.run("shop.watch.announce", number)
-    shop.later(SOON, number)
+    coming = shop.later(SOON, number)
     detect(after=number - 1, patience=PATIENCE)
+    coming.join()  # Otherwise, the numbers would be published during a later call.
     _at_once(context, "if a customer comes, the handler responds immediately", detect.took, SOON, hint=MISSED)
     context.run("shop.watch.announce", 0)
 
