@@ -403,7 +403,7 @@ class CheckContext:
 
 @dataclass(frozen=True)
 class Its:
-    """An argument for `CheckContext.run`: it stands for the value of `name` in the kernel."""
+    """An argument for `CheckContext.run`. The kernel replaces it with the value of `name`."""
 
     name: str
 

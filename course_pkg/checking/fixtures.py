@@ -3,7 +3,7 @@
 `fixtures.py`, next to the checks of a chapter, contains them in percent format:
 
     # %% before          run first, for every part of the chapter: imports, joining the graph
-    # %% 05.1 before     run next, for this part
+    # %% 05.1 before     run next, for this part; a header can name several parts
     # %% 05.1 after      run after the answer: the rest of the exercise cell
 """
 
@@ -17,14 +17,14 @@ from pathlib import Path
 from course_pkg.checking.parts import folder_of
 from course_pkg.errors import CheckError
 
-HEADER = re.compile(r"# %% (?:(?P<check>\d\d\.\d+) )?(?P<place>before|after)\s*$")
+HEADER = re.compile(r"# %% (?P<checks>(?:\d\d\.\d+ )*)(?P<place>before|after)\s*$")
 
 
 @dataclass(frozen=True)
 class Fixture:
-    """The cells of one place ("before" or "after"); an empty `check` means every part of the chapter."""
+    """The cells of one place ("before" or "after"); if `checks` is empty, they run for every part."""
 
-    check: str
+    checks: frozenset[str]
     place: str
     source: str
 
@@ -47,7 +47,7 @@ def read_fixtures(path: Path) -> Iterator[Fixture]:
     for header, source, line in percent_cells(path.read_text("utf-8")):
         if not (found := HEADER.match(header)):
             raise CheckError(f"{path}, line {line}: {header!r} is not a header of a fixture")
-        yield Fixture(found["check"] or "", found["place"], source)
+        yield Fixture(frozenset(found["checks"].split()), found["place"], source)
 
 
 def percent_cells(text: str) -> Iterator[tuple[str, str, int]]:
@@ -59,4 +59,6 @@ def percent_cells(text: str) -> Iterator[tuple[str, str, int]]:
 
 
 def _joined(fixtures: list[Fixture], check: str, place: str) -> str:
-    return "\n".join(each.source for each in fixtures if each.place == place and each.check in ("", check))
+    return "\n".join(
+        each.source for each in fixtures if each.place == place and (not each.checks or check in each.checks)
+    )

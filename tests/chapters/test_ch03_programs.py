@@ -78,7 +78,7 @@ def report() -> CashierReportResponse:
 
 @pytest.mark.usefixtures("detector")
 def test_call_with_patience_0() -> None:
-    """A call with the waiting time `patience` = 0 returns immediately."""
+    """If the field `patience` is 0, the call returns immediately."""
     assert (detect().detected, detect().number) == (False, 0)
     came = let_in(0.0)
     answer = detect(patience=10.0)

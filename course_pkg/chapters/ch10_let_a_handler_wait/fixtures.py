@@ -15,18 +15,7 @@ from std_srvs.srv import Trigger, TriggerResponse
 
 node = join("chapter_10")
 
-# %% 10.4 before
-class Shelf:
-    def __init__(self, count):
-        self.count = count
-
-    def read(self):
-        return self.count
-
-    def write(self, count):
-        self.count = count
-
-# %% 10.5 before
+# %% 10.4 10.5 before
 class Shelf:
     def __init__(self, count):
         self.count = count

@@ -24,7 +24,7 @@ def read_header(data):
         data = data[4 + length :]
     return fields
 
-# %% 11.3 before
+# %% 11.3 11.6 before
 def pack_header(fields):
     def sized(data):
         return struct.pack("<I", len(data)) + data
@@ -47,23 +47,6 @@ if "sessions" not in globals():
     my_add_up = rospy.Service("/my_add_up", AddUp, sessions.handle)
 
 # %% 11.6 before
-def pack_header(fields):
-    def sized(data):
-        return struct.pack("<I", len(data)) + data
-
-    return sized(b"".join(sized(f"{name}={value}".encode()) for name, value in fields.items()))
-
-
-def receive(sock, count):
-    data = b""
-    while len(data) < count:
-        piece = sock.recv(count - len(data))
-        if not piece:
-            raise ConnectionError("the other end has closed")
-        data += piece
-    return data
-
-
 def ask(uri, service, length, width, height):
     host, port = uri.removeprefix("rosrpc://").split(":")
     fields = {"callerid": node.name, "service": service, "md5sum": geometry._md5sum}

@@ -208,7 +208,7 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
 
 def _described(error: BaseException) -> Json:
     called = traceback.walk_tb(error.__traceback__)
-    # Use only the lines of cells. Only the code of cells has the module name `__main__`.
+    # Use only the lines of cells. The module name `__main__` belongs only to the code of cells.
     lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]
     return {
         "type": _class_name(type(error)),

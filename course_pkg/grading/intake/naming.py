@@ -1,4 +1,4 @@
-"""Finds the student to whom a file belongs.
+"""Finds the student of a file.
 
 An instructor or a platform has put the student's name into the name of a folder or file.
 
@@ -50,7 +50,7 @@ class Claim:
 
 
 def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
-    """Return the students to whom a file belongs: one student or all members of a group.
+    """Return the students of a file: one student, or all members of a group.
 
     The student's name is read only from the first folder, or from the file name if there is no folder. The
     platform or the instructor chose this name. Students choose all other names in the path, and could use

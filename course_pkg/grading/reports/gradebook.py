@@ -48,7 +48,7 @@ class Book:
 
     @property
     def identified(self) -> list[str]:
-        """The students whom a platform can identify; a platform's file has rows only for these students."""
+        """The students that a platform can identify. A platform's file has rows only for them."""
         return [student for student in self.students if student and student not in self.class_list.unclear]
 
     def of(self, student: str) -> list[Grade]:

@@ -89,7 +89,7 @@ def _keys(person: Person) -> Iterator[tuple[str, str]]:
 
 
 def orders(name: str) -> set[str]:
-    """Return the words of a name, joined in every order that a platform can use.
+    """Return each text that a platform can write for a name; the texts differ in the order of the words.
 
     For Jane Maria Doe, Canvas writes "doejanemaria", and a spreadsheet can contain "Doe, Jane Maria".
     """

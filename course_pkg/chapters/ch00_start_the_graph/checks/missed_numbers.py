@@ -116,8 +116,8 @@ def count_what_was_missed(context: CheckContext) -> None:
         # On a busy machine, the publisher may count a subscriber for some time after the subscriber has
         # unsubscribed. At the end of the long pause, this time is over.
         ending = max(place for place, at in enumerate(sent) if at <= sent[before - first] + pause - 0.05)
-        listens = unheard < (after - before) / 2 or subscribers[ending] > 0
-        if listens if shortest > 1 else not unheard:
+        listens = unheard < (after - before) / 2 or subscribers[ending] > 0 if shortest > 1 else not unheard
+        if listens:
             context.fail(
                 "the second number is received after the pause",
                 expected="no subscriber during the pause",

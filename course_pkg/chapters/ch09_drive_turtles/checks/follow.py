@@ -15,7 +15,8 @@ from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import (
     STARTING,
     World,
     fails_with_one,
-    last_line,
+    failure,
+    has_traceback,
     outcome,
     own_message,
     why_it_ended,
@@ -360,12 +361,11 @@ def _stops_early(
             "soon as a service is missing or refuses a call."
         ),
     )
-    traceback = "Traceback" in own_message(done)
     context.require(
         STOPS,
         holds=fails_with_one(done),
         expected="a message, and the exit status 1",
-        actual=f"a traceback, with the last line {last_line(done)}" if traceback else outcome(done),
+        actual=failure(done),
         hints=[
             (
                 (lambda _: done.status is None and len(driver.servers) == len(ORDER)),
@@ -383,7 +383,7 @@ def _stops_early(
             ),
             ((lambda _: done.status == 1 and not own_message(done)), NO_MESSAGE),
             (
-                (lambda _: not traceback),
+                (lambda _: not has_traceback(done)),
                 (
                     "The program printed a message, but the exit status is wrong. After this message, end "
                     "the program with exit status 1."

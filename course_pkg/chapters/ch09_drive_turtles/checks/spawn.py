@@ -10,7 +10,8 @@ from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import (
     STARTING,
     World,
     fails_with_one,
-    last_line,
+    failure,
+    has_traceback,
     outcome,
     own_message,
     why_it_ended,
@@ -291,15 +292,14 @@ def _why_it_ended_early(waited: float) -> str:
 
 
 def _fails_with_one(context: CheckContext, done: Finished, assertion: str, hint: str) -> None:
-    traceback = "Traceback" in own_message(done)
     context.require(
         assertion,
         holds=fails_with_one(done),
         expected="a message, and the exit status 1",
-        actual=f"a traceback, with the last line {last_line(done)}" if traceback else outcome(done),
+        actual=failure(done),
         hints=[
             (
-                (lambda _: traceback and assertion == REFUSED),
+                (lambda _: has_traceback(done) and assertion == REFUSED),
                 "The program does not handle the exception of a refused call. For each ServiceException, "
                 "print a message, and end with exit status 1.",
             ),

@@ -227,9 +227,19 @@ def own_message(done: Finished) -> str:
     return WAITING.sub("", COLOUR.sub("", done.out + done.err)).strip()
 
 
+def has_traceback(done: Finished) -> bool:
+    """Return whether a program printed a traceback."""
+    return "Traceback" in own_message(done)
+
+
+def failure(done: Finished) -> str:
+    """Return the text for the report about how a program failed: its traceback, or its exit status."""
+    return f"a traceback, with the last line {last_line(done)}" if has_traceback(done) else outcome(done)
+
+
 def fails_with_one(done: Finished) -> bool:
     """Return whether a program ended with exit status 1 and with its own message, but without a traceback."""
-    return done.status == 1 and bool(own_message(done)) and "Traceback" not in own_message(done)
+    return done.status == 1 and bool(own_message(done)) and not has_traceback(done)
 
 
 def why_it_ended(done: Finished) -> str:

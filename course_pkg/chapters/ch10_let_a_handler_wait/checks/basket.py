@@ -10,9 +10,8 @@ from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
 from course_pkg.checking.peers.service_calls import Reply, Service
 from course_pkg.checking.plain_values import Message
 
-LIMIT = (
-    1.6  # A `take` handler of the basket that the check creates waits for an item for at most this time in s.
-)
+# In the basket that the check creates, the handler of /take waits for an item for at most this time in s.
+LIMIT = 1.6
 SLACK = 0.8  # SLACK is the additional time in s that a call may take on a busy machine.
 LATER = 0.3  # An item is put into the basket after this time in s.
 # After this time in s, the last of several items is put into the basket, or the check wakes all threads. If

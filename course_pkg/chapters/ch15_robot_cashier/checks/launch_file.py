@@ -267,7 +267,7 @@ def _number(text: str) -> float | None:
 
 def starts_the_hardware(context: CheckContext, printed: str, assertion: str) -> None:
     """Assert that the nodes of the hardware start; `printed` is the output of READER without arguments."""
-    nodes = [node for node, _ in re.findall(r"^node /(\S+) (.*)", printed, re.MULTILINE)]
+    nodes = _nodes(printed)
     context.require(
         assertion,
         holds=set(HARDWARE) <= set(nodes),
@@ -282,7 +282,7 @@ def starts_the_hardware(context: CheckContext, printed: str, assertion: str) -> 
 
 def starts_no_hardware(context: CheckContext, printed: str, assertion: str) -> None:
     """Assert that no node of the hardware starts; `printed` is READER's output with hardware:=false."""
-    nodes = re.findall(r"^node /(\S+) ", printed, re.MULTILINE)
+    nodes = _nodes(printed)
     context.require(
         assertion,
         holds=not set(HARDWARE) & set(nodes),
@@ -290,6 +290,11 @@ def starts_no_hardware(context: CheckContext, printed: str, assertion: str) -> N
         actual=", ".join(nodes),
         hints=NO_HARDWARE,
     )
+
+
+def _nodes(printed: str) -> list[str]:
+    """Return the names of the nodes in READER's output."""
+    return re.findall(r"^node /(\S+) ", printed, re.MULTILINE)
 
 
 def longest_delay(printed: str) -> float:

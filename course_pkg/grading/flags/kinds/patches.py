@@ -1,4 +1,4 @@
-"""Finds answers that change a module or an imported class, and thereby the behaviour of other code."""
+"""Finds answers that change a module or an imported class, and so change the behaviour of other code."""
 
 from __future__ import annotations
 
